@@ -1,0 +1,93 @@
+#include "sem/draw/image.h"
+
+#include <stb_image_write.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <new>
+
+#include "sem/base/error.h"
+
+namespace sem {
+namespace {
+
+void append_big_endian(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
+  for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(std::uint8_t(value >> shift));
+}
+
+/// CRC-32 of PNG (ISO 3309), bit by bit: for short chunks.
+std::uint32_t crc32(const std::uint8_t* begin, const std::uint8_t* end) {
+  std::uint32_t crc = 0xffffffffu;
+  for (; begin != end; ++begin) {
+    crc ^= *begin;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xedb88320u : 0);
+  }
+  return ~crc;
+}
+
+/// The chunk that states the number of pixels per metre.
+std::vector<std::uint8_t> physical_size_chunk(double dots_per_inch) {
+  const auto per_metre = std::uint32_t(std::lround(dots_per_inch / 0.0254));
+  std::vector<std::uint8_t> chunk;
+  append_big_endian(chunk, 9);
+  for (char c : {'p', 'H', 'Y', 's'}) chunk.push_back(std::uint8_t(c));
+  append_big_endian(chunk, per_metre);
+  append_big_endian(chunk, per_metre);
+  chunk.push_back(1);  // the unit is the metre
+  append_big_endian(chunk, crc32(chunk.data() + 4, chunk.data() + chunk.size()));
+  return chunk;
+}
+
+[[noreturn]] void cannot_write(const std::string& path, int error) {
+  throw InputError(path, "", error ? std::strerror(error) : "a failed write",
+                   "a file in a folder that exists, can be written and has space left");
+}
+
+}  // namespace
+
+void Image::set(int column, int row, const Color& color) {
+  const double parts[] = {color.r, color.g, color.b};
+  for (int i = 0; i < 3; ++i)
+    pixel(column, row)[i] = std::uint8_t(std::lround(255 * std::clamp(parts[i], 0.0, 1.0)));
+}
+
+std::vector<std::uint8_t> encode_png(const Image& image, double dots_per_inch) {
+  assert(image.width > 0 && image.height > 0 && dots_per_inch > 0);
+  std::vector<std::uint8_t> png;
+  const auto append = [](void* context, void* data, int size) {
+    auto& all = *static_cast<std::vector<std::uint8_t>*>(context);
+    const auto* bytes = static_cast<const std::uint8_t*>(data);
+    all.insert(all.end(), bytes, bytes + size);
+  };
+  if (!stbi_write_png_to_func(append, &png, image.width, image.height, 3, image.rgb.data(), 0))
+    throw std::bad_alloc();
+  const auto physical_size = physical_size_chunk(dots_per_inch);
+  constexpr int header_end = 8 + 25;  // signature and IHDR
+  png.insert(png.begin() + header_end, physical_size.begin(), physical_size.end());
+  return png;
+}
+
+void write_png(const std::string& path, const Image& image, double dots_per_inch) {
+  const auto png = encode_png(image, dots_per_inch);
+  const std::string temporary = path + ".part";
+  errno = 0;
+  std::ofstream file(temporary, std::ios::binary);
+  if (!file) cannot_write(path, errno);
+  file.write(reinterpret_cast<const char*>(png.data()), std::streamsize(png.size()));
+  file.close();
+  std::error_code error;
+  if (file) {
+    std::filesystem::rename(temporary, path, error);
+    if (!error) return;
+  }
+  const int reason = error ? error.value() : errno;
+  std::filesystem::remove(temporary, error);
+  cannot_write(path, reason);
+}
+
+}  // namespace sem

@@ -1,0 +1,37 @@
+#pragma once
+// An image of 8-bit RGB pixels and its PNG file.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sem/draw/colors.h"
+
+namespace sem {
+
+/// Row by row from the top, 3 bytes a pixel.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+
+  Image() = default;
+  Image(int n_columns, int n_rows)
+      : width(n_columns), height(n_rows), rgb(3 * std::size_t(width) * height) {}
+
+  std::uint8_t* pixel(int column, int row) { return &rgb[3 * (std::size_t(row) * width + column)]; }
+  const std::uint8_t* pixel(int column, int row) const {
+    return &rgb[3 * (std::size_t(row) * width + column)];
+  }
+  /// Stores the colour, without its opacity.
+  void set(int column, int row, const Color& color);
+};
+
+/// The bytes of a PNG file (8-bit RGB) that states `dots_per_inch` in its pHYs chunk.
+std::vector<std::uint8_t> encode_png(const Image& image, double dots_per_inch = 96);
+
+/// Writes the PNG under a temporary name in the same folder, then renames it: the file is whole or
+/// absent. Throws InputError if it cannot be written.
+void write_png(const std::string& path, const Image& image, double dots_per_inch = 96);
+
+}  // namespace sem

@@ -1,0 +1,137 @@
+#include "sem/mechanics/internal_energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sem {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+template <int Dim>
+InternalEnergy<Dim>::InternalEnergy(const Map<Dim>& map, const VectorXd& weight,
+                                    const MaterialField& materials, const MatrixXd& stability)
+    : map_(map), weight_(weight), materials_(materials), stability_(stability), work_(map.blocks.size()),
+      stability_force_(Dim, map.n_columns) {
+  quadratic_ = std::all_of(materials_.of_point.begin(), materials_.of_point.end(), [&](int m) {
+    return is_quadratic(materials_.materials[m].model);
+  });
+  for (size_t b = 0; b < work_.size(); ++b) {
+    const int n = int(map.blocks[b].points.size()), a = int(map.blocks[b].columns.size());
+    work_[b].nodes.resize(Dim, a);
+    for (auto& F : work_[b].F) F.resize(Dim, n);
+    work_[b].scaled.resize(n, a);
+    work_[b].product.resize(a, a);
+    work_[b].tangent.resize(n);
+  }
+}
+
+template <int Dim>
+void InternalEnergy<Dim>::deformation_gradients(const VectorXd& z, const MapBlock<Dim>& block,
+                                                Workspace& work) {
+  for (size_t j = 0; j < block.columns.size(); ++j)
+    work.nodes.col(j) = z.template segment<Dim>(Dim * block.columns[j]);
+  for (int b = 0; b < Dim; ++b) work.F[b].noalias() = work.nodes * block.gradient[b].transpose();
+}
+
+namespace {
+
+// F at point k from its columns.
+template <int Dim>
+Mat<Dim> assemble_F(const std::array<Points<Dim>, Dim>& columns, int k) {
+  Mat<Dim> F;
+  for (int b = 0; b < Dim; ++b) F.col(b) = columns[b].col(k);
+  return F;
+}
+
+}  // namespace
+
+template <int Dim>
+double InternalEnergy<Dim>::elastic_energy(const VectorXd& z) {
+  double sum = 0;
+  for (size_t i = 0; i < work_.size(); ++i) {
+    const auto& block = map_.blocks[i];
+    deformation_gradients(z, block, work_[i]);
+    for (size_t k = 0; k < block.points.size(); ++k)
+      sum += weight_[block.points[k]] *
+             energy_density<Dim>(material(block.points[k]), assemble_F<Dim>(work_[i].F, int(k)));
+  }
+  return sum;
+}
+
+template <int Dim>
+double InternalEnergy<Dim>::stability_energy(const VectorXd& z) {
+  const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, map_.n_columns);
+  stability_force_.noalias() = nodes * stability_;
+  return stability_force_.cwiseProduct(nodes).sum() / 2;
+}
+
+template <int Dim>
+double InternalEnergy<Dim>::energy(const VectorXd& z) {
+  return elastic_energy(z) + stability_energy(z);
+}
+
+template <int Dim>
+void InternalEnergy<Dim>::gradient(const VectorXd& z, VectorXd& g) {
+  const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, map_.n_columns);
+  Eigen::Map<Points<Dim>> out(g.data(), Dim, map_.n_columns);
+  out.noalias() = nodes * stability_;
+  for (size_t i = 0; i < work_.size(); ++i) {
+    const auto& block = map_.blocks[i];
+    Workspace& work = work_[i];
+    deformation_gradients(z, block, work);
+    for (size_t k = 0; k < block.points.size(); ++k) {
+      const Mat<Dim> P = weight_[block.points[k]] *
+                         first_piola<Dim>(material(block.points[k]), assemble_F<Dim>(work.F, int(k)));
+      for (int b = 0; b < Dim; ++b) work.F[b].col(k) = P.col(b);  // F is not needed any more
+    }
+    work.nodes.setZero();
+    for (int b = 0; b < Dim; ++b) work.nodes.noalias() += work.F[b] * block.gradient[b];
+    for (size_t j = 0; j < block.columns.size(); ++j) out.col(block.columns[j]) += work.nodes.col(j);
+  }
+}
+
+template <int Dim>
+void InternalEnergy<Dim>::hessian(const VectorXd& z, bool psd, MatrixXd& H) {
+  H.setZero();
+  for (int j = 0; j < map_.n_columns; ++j)
+    for (int i = 0; i < map_.n_columns; ++i)
+      for (int a = 0; a < Dim; ++a) H(Dim * i + a, Dim * j + a) = stability_(i, j);
+  for (size_t i = 0; i < work_.size(); ++i) {
+    const auto& block = map_.blocks[i];
+    Workspace& work = work_[i];
+    const int n = int(block.points.size()), n_columns = int(block.columns.size());
+    deformation_gradients(z, block, work);
+    for (int k = 0; k < n; ++k) {
+      const StressDerivative<Dim> C =
+          stress_derivative<Dim>(material(block.points[k]), assemble_F<Dim>(work.F, k));
+      work.tangent[k] = weight_[block.points[k]] * (psd ? project_to_psd<Dim>(C) : C);
+    }
+    for (int a = 0; a < Dim; ++a)
+      for (int c = a; c < Dim; ++c) {
+        work.product.setZero();
+        for (int b = 0; b < Dim; ++b) {
+          for (int j = 0; j < n_columns; ++j)
+            for (int k = 0; k < n; ++k) {
+              double sum = 0;
+              for (int d = 0; d < Dim; ++d)
+                sum += work.tangent[k](a + Dim * b, c + Dim * d) * block.gradient[d](k, j);
+              work.scaled(k, j) = sum;
+            }
+          work.product.noalias() += block.gradient[b].transpose() * work.scaled;
+        }
+        for (int j = 0; j < n_columns; ++j)
+          for (int m = 0; m < n_columns; ++m) {
+            const int row = Dim * block.columns[m] + a, column = Dim * block.columns[j] + c;
+            H(row, column) += work.product(m, j);
+            if (c != a) H(column, row) += work.product(m, j);
+          }
+      }
+  }
+}
+
+template class InternalEnergy<2>;
+template class InternalEnergy<3>;
+
+}  // namespace sem

@@ -1,0 +1,67 @@
+#include "sem/mechanics/loads.h"
+
+#include "sem/nurbs/basis.h"
+
+namespace sem {
+namespace {
+
+// f += sum_k forces.col(k) (x) Gamma_k.
+template <int Dim>
+void add_forces(const Map<Dim>& map, const Points<Dim>& forces, Eigen::VectorXd& f) {
+  for (const auto& block : map.blocks) {
+    const Points<Dim> local = forces(Eigen::all, block.points) * block.value;
+    for (size_t j = 0; j < block.columns.size(); ++j)
+      f.template segment<Dim>(Dim * block.columns[j]) += local.col(j);
+  }
+}
+
+template <int Dim>
+Vec<Dim> outward_normal(const Discretization<Dim>& d, int part, const Param<Dim - 1>& u) {
+  const auto at = derivatives(d.boundary.parts[part].nurbs, u);
+  const Vec<Dim> normal = DimTraits<Dim>::area_normal(at.first);
+  return d.loops.orientation[part] * normal / std::max(normal.norm(), 1e-300);
+}
+
+}  // namespace
+
+template <int Dim>
+void add_body_force(const Map<Dim>& interior, const Eigen::VectorXd& magnitude,
+                    const Vec<Dim>& direction, Eigen::VectorXd& f) {
+  add_forces<Dim>(interior, direction * magnitude.transpose(), f);
+}
+
+template <int Dim>
+void add_point_force(const Discretization<Dim>& d, const Vec<Dim>& at, const Vec<Dim>& force,
+                     Eigen::VectorXd& f) {
+  add_forces<Dim>(map_at<Dim>(d, at, false), force, f);
+}
+
+template <int Dim>
+double add_traction(const Discretization<Dim>& d, const Traction<Dim>& traction, Eigen::VectorXd& f) {
+  int highest = 1;
+  for (const auto& part : d.boundary.parts)
+    for (const int degree : part.nurbs.degree) highest = std::max(highest, degree);
+  const Samples<Dim> samples = sample_boundary(d.boundary, {highest + 5, SampleWeight::measure});
+  double loaded = 0;
+  Points<Dim> forces(Dim, samples.size());
+  for (int s = 0; s < samples.size(); ++s) {
+    const int part = samples.part[s];
+    const Vec<Dim> t = traction(part, samples.position.col(s), outward_normal(d, part, samples.u[s]));
+    forces.col(s) = samples.weight[s] * t;
+    if (!t.isZero(0)) loaded += samples.weight[s];
+  }
+  add_forces(map_at(d, samples.position, false), forces, f);
+  return loaded;
+}
+
+#define SEM_INSTANTIATE(Dim)                                                                     \
+  template void add_body_force<Dim>(const Map<Dim>&, const Eigen::VectorXd&, const Vec<Dim>&,    \
+                                    Eigen::VectorXd&);                                           \
+  template void add_point_force<Dim>(const Discretization<Dim>&, const Vec<Dim>&,                \
+                                     const Vec<Dim>&, Eigen::VectorXd&);                         \
+  template double add_traction<Dim>(const Discretization<Dim>&, const Traction<Dim>&,            \
+                                    Eigen::VectorXd&);
+SEM_INSTANTIATE(2)
+SEM_INSTANTIATE(3)
+
+}  // namespace sem

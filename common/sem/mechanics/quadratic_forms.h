@@ -1,0 +1,26 @@
+#pragma once
+// The constant matrices: mass and stability (draft eq. 20-22 and section 1.7).
+// Scalar, n_columns by n_columns: the same for every component, so that the
+// matrix on z is the Kronecker product with the Dim by Dim identity.
+
+#include "sem/method/map.h"
+#include "sem/method/samples.h"
+
+namespace sem {
+
+/// M = sum_k density_k v_k Gamma_k^T Gamma_k, kg (2D: per unit thickness). Its
+/// entries sum to the mass of the body: Gamma reproduces translations.
+template <int Dim>
+Eigen::MatrixXd mass_matrix(const Map<Dim>& interior, const Eigen::VectorXd& point_mass);
+
+/// S = sum_s a_s (Gamma_s - J_s)^T (Gamma_s - J_s), m^(Dim-1): the integral of
+/// |x(X(u)) - J(u) p|^2 over the boundary is p^T S p, summed over components.
+/// The stability (error) energy is gamma/2 of it, the kinetic one rho l/2 of
+/// the same form in the velocities.
+template <int Dim>
+Eigen::MatrixXd stability_matrix(const Map<Dim>& on_boundary, const Samples<Dim>& samples);
+
+/// Kronecker product with the identity of size dim: what acts on z.
+Eigen::MatrixXd expand(const Eigen::MatrixXd& scalar, int dim);
+
+}  // namespace sem

@@ -1,0 +1,69 @@
+#include "sem/method/boundary.h"
+
+#include <numeric>
+
+#include "sem/base/error.h"
+
+namespace sem {
+
+template <int Dim>
+Boundary<Dim> make_boundary(const std::vector<std::vector<Nurbs<Dim - 1, Dim>>>& solids) {
+  Boundary<Dim> boundary;
+  boundary.n_solids = int(solids.size());
+  boundary.first_control.push_back(0);
+  for (int s = 0; s < boundary.n_solids; ++s)
+    for (const auto& shape : solids[s]) {
+      boundary.parts.push_back(prepare(shape));
+      boundary.solid.push_back(s);
+      boundary.first_control.push_back(boundary.first_control.back() +
+                                       int(shape.control_points.cols()));
+      boundary.box.include(boundary.parts.back().box);
+    }
+  if (boundary.parts.empty()) throw InputError("", "solids", "no part", "at least one part");
+  return boundary;
+}
+
+template <int Dim>
+Points<Dim> rest_controls(const Boundary<Dim>& boundary) {
+  Points<Dim> p(Dim, boundary.n_controls());
+  for (int i = 0; i < boundary.n_parts(); ++i) {
+    const auto& own = boundary.parts[i].nurbs.control_points;
+    p.middleCols(boundary.first_control[i], own.cols()) = own;
+  }
+  return p;
+}
+
+template <int Dim>
+std::vector<std::vector<int>> coincident_controls(const Boundary<Dim>& boundary) {
+  const Points<Dim> p = rest_controls(boundary);
+  const double tolerance = boundary.tolerance();
+  std::vector<int> order(p.cols());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return p(0, a) < p(0, b); });
+  std::vector<bool> used(p.cols(), false);
+  std::vector<std::vector<int>> groups;
+  for (size_t i = 0; i < order.size(); ++i) {
+    if (used[order[i]]) continue;
+    std::vector<int> group = {order[i]};
+    for (size_t j = i + 1; j < order.size() && p(0, order[j]) - p(0, order[i]) <= tolerance; ++j)
+      if (!used[order[j]] && (p.col(order[j]) - p.col(order[i])).norm() <= tolerance) {
+        group.push_back(order[j]);
+        used[order[j]] = true;
+      }
+    if (group.size() < 2) continue;
+    std::sort(group.begin(), group.end());
+    groups.push_back(std::move(group));
+  }
+  std::sort(groups.begin(), groups.end());
+  return groups;
+}
+
+#define SEM_INSTANTIATE(Dim)                                                                     \
+  template Boundary<Dim> make_boundary<Dim>(                                                     \
+      const std::vector<std::vector<Nurbs<Dim - 1, Dim>>>&);                                     \
+  template Points<Dim> rest_controls<Dim>(const Boundary<Dim>&);                                 \
+  template std::vector<std::vector<int>> coincident_controls<Dim>(const Boundary<Dim>&);
+SEM_INSTANTIATE(2)
+SEM_INSTANTIATE(3)
+
+}  // namespace sem

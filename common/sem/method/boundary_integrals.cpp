@@ -1,0 +1,174 @@
+#include "sem/method/boundary_integrals.h"
+
+#include <algorithm>
+
+#include "sem/method/line_rules.h"
+#include "sem/nurbs/basis.h"
+
+namespace sem {
+namespace {
+
+constexpr int n_gauss = 32;
+
+// Adds sign * flux of the primitives (along X_0) through a box of parameters.
+template <int Dim>
+void add_flux(const Nurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>& lower,
+              const Param<Dim - 1>& upper, int sign, const Vec<Dim>& center, Moments<Dim>& out) {
+  static const LineRule rule = gauss_legendre(n_gauss);
+  int n = 1;
+  for (int a = 0; a < Dim - 1; ++a) n *= n_gauss;
+  for (int k = 0; k < n; ++k) {
+    Param<Dim - 1> u;
+    double weight = sign;
+    for (int a = 0, rest = k; a < Dim - 1; ++a, rest /= n_gauss) {
+      const double half = (upper[a] - lower[a]) / 2;
+      u[a] = lower[a] + half * (1 + rule.node[rest % n_gauss]);
+      weight *= half * rule.weight[rest % n_gauss];
+    }
+    const auto at = derivatives(shape, u);
+    const Vec<Dim> x = at.point - center;
+    const double flux = weight * DimTraits<Dim>::area_normal(at.first)[0];
+    // Primitive along X_0 of X_0^m (rest): X_0^(m+1)/(m+1) (rest).
+    out.volume += flux * x[0];
+    for (int i = 0; i < Dim; ++i) {
+      out.first[i] += flux * x[0] * x[i] / (i == 0 ? 2 : 1);
+      for (int j = 0; j < Dim; ++j)
+        out.second(i, j) += flux * x[0] * x[i] * x[j] / (1 + (i == 0) + (j == 0));
+    }
+  }
+}
+
+// +1 / -1: the body is behind / before the normal at u; 0: on both sides or on neither.
+template <int Dim>
+int side(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
+         const PreparedNurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>& u) {
+  const auto at = derivatives(shape.nurbs, u);
+  const Vec<Dim> normal = DimTraits<Dim>::area_normal(at.first).normalized();
+  if (!normal.allFinite()) return 0;
+  const Vec<Dim> step = 1e-7 * shape.box.diagonal() * normal;
+  return int(inside(boundary, loops, Vec<Dim>(at.point - step))) -
+         int(inside(boundary, loops, Vec<Dim>(at.point + step)));
+}
+
+// The parameters at which side() changes, between two where it differs.
+double change(const Boundary<2>& boundary, const Loops<2>& loops, const PreparedNurbs<1, 2>& shape,
+              double a, double b) {
+  const int side_a = side<2>(boundary, loops, shape, Param<1>(a));
+  for (int bisection = 0; bisection < 60 && a != (a + b) / 2 && b != (a + b) / 2; ++bisection) {
+    const double middle = (a + b) / 2;
+    (side<2>(boundary, loops, shape, Param<1>(middle)) == side_a ? a : b) = middle;
+  }
+  return (a + b) / 2;
+}
+
+// A curve of which only some stretches bound the body.
+void add_visible(const Boundary<2>& boundary, const Loops<2>& loops,
+                 const PreparedNurbs<1, 2>& shape, const Vec<2>& center, Moments<2>& out) {
+  constexpr int n_scan = 64;
+  for (const auto& piece : shape.pieces) {
+    double begin = piece.lower[0], previous = begin;
+    int previous_side = 0;
+    for (int k = 0; k < n_scan; ++k) {
+      const double u = piece.lower[0] + (k + 0.5) / n_scan * (piece.upper[0] - piece.lower[0]);
+      const int here = side<2>(boundary, loops, shape, Param<1>(u));
+      if (k > 0 && here != previous_side) {
+        const double end = change(boundary, loops, shape, previous, u);
+        if (previous_side != 0)
+          add_flux<2>(shape.nurbs, Param<1>(begin), Param<1>(end), previous_side, center, out);
+        begin = end;
+      }
+      previous = u;
+      previous_side = here;
+    }
+    if (previous_side != 0)
+      add_flux<2>(shape.nurbs, Param<1>(begin), piece.upper, previous_side, center, out);
+  }
+}
+
+// Surfaces that overlap other solids would have to be trimmed first.
+void add_visible(const Boundary<3>&, const Loops<3>&, const PreparedNurbs<2, 3>&, const Vec<3>&,
+                 Moments<3>& out) {
+  out.available = false;
+}
+
+template <int Dim>
+bool boxes_meet(const Box<Dim>& a, const Box<Dim>& b) {
+  return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
+}
+
+template <int Dim>
+struct Crowding {
+  std::vector<Box<Dim>> box;  // per loop
+  std::vector<int> loop_of_part, loop_of_cap;
+  std::vector<bool> crowded;  // per loop: may meet a loop of another solid or one that crosses it
+};
+
+// Loops whose parts may be hidden in other solids or cut by other loops.
+template <int Dim>
+Crowding<Dim> find_crowding(const Boundary<Dim>& boundary, const Loops<Dim>& loops) {
+  const int n = int(loops.loops.size());
+  Crowding<Dim> result;
+  result.box.resize(n);
+  result.crowded.assign(n, false);
+  result.loop_of_part.resize(boundary.n_parts());
+  result.loop_of_cap.resize(loops.caps.size());
+  for (int l = 0; l < n; ++l) {
+    for (const int i : loops.loops[l].parts) {
+      result.loop_of_part[i] = l;
+      result.box[l].include(boundary.parts[i].box);
+    }
+    for (const int c : loops.loops[l].caps) result.loop_of_cap[c] = l;
+  }
+  for (int l = 0; l < n; ++l)
+    for (int m = 0; m < n; ++m)
+      // Loops at different depths of one solid are nested: no part of one hides in the other.
+      if (l != m && boxes_meet(result.box[l], result.box[m]) &&
+          (loops.loops[l].solid != loops.loops[m].solid ||
+           loops.loops[l].depth == loops.loops[m].depth))
+        result.crowded[l] = true;
+  return result;
+}
+
+}  // namespace
+
+template <int Dim>
+Moments<Dim> boundary_moments(const Boundary<Dim>& boundary, const Loops<Dim>& loops) {
+  Moments<Dim> moments;
+  const Vec<Dim> center = (boundary.box.lower + boundary.box.upper) / 2;
+  const Crowding<Dim> crowding = find_crowding(boundary, loops);
+  const auto add = [&](const PreparedNurbs<Dim - 1, Dim>& shape, int loop, int sign) {
+    if (crowding.crowded[loop]) {
+      add_visible(boundary, loops, shape, center, moments);
+    } else {
+      if (sign == 0) moments.available = false;
+      for (const auto& piece : shape.pieces)
+        add_flux<Dim>(shape.nurbs, piece.lower, piece.upper, sign, center, moments);
+    }
+  };
+  for (int i = 0; i < boundary.n_parts(); ++i)
+    add(boundary.parts[i], crowding.loop_of_part[i], loops.orientation[i]);
+  for (int c = 0; c < int(loops.caps.size()); ++c)
+    if (loops.cap_length[c] > boundary.tolerance())
+      add(loops.caps[c], crowding.loop_of_cap[c], loops.cap_orientation[c]);
+  // From the center of the box back to the origin.
+  moments.second += moments.first * center.transpose() + center * moments.first.transpose() +
+                    moments.volume * center * center.transpose();
+  moments.first += moments.volume * center;
+  return moments;
+}
+
+template <int Dim>
+Moments<Dim> quadrature_moments(const Points<Dim>& position, const Eigen::VectorXd& weight) {
+  Moments<Dim> moments;
+  moments.volume = weight.sum();
+  moments.first = position * weight;
+  moments.second = position * weight.asDiagonal() * position.transpose();
+  return moments;
+}
+
+template Moments<2> boundary_moments<2>(const Boundary<2>&, const Loops<2>&);
+template Moments<3> boundary_moments<3>(const Boundary<3>&, const Loops<3>&);
+template Moments<2> quadrature_moments<2>(const Points<2>&, const Eigen::VectorXd&);
+template Moments<3> quadrature_moments<3>(const Points<3>&, const Eigen::VectorXd&);
+
+}  // namespace sem

@@ -1,0 +1,74 @@
+#pragma once
+// Stage 4: distance weights theta_i(X) (draft eq. 25, figure 4).
+
+#include <optional>
+#include <vector>
+
+#include "sem/method/boundary.h"
+#include "sem/method/loops.h"
+
+namespace sem {
+
+enum class DistanceWeight {
+  published,      ///< 1 - |X - X*| / min(d_total, alpha), d_total = |X* to hit|
+  draft,          ///< 1 - |X - X*| / min(d2, alpha), d2 = |X to hit|
+  distance_only,  ///< 1 - |X - X*| / alpha, no rays
+};
+
+struct WeightOptions {
+  DistanceWeight variant = DistanceWeight::published;
+  double cutoff = 1;               ///< alpha, m
+  std::optional<double> sparsity;  ///< T in (0, 1]: alpha so that this share of the weights is non-zero
+};
+
+/// What the weights of one part at one point are made of; alpha-free. Stored
+/// for the pairs that can have theta > 0 for some alpha <= max_distance, with all
+/// that a gradient of theta on its smooth piece needs.
+template <int Dim>
+struct Distances {
+  int n_points = 0, n_parts = 0;
+  std::vector<int> begin;        ///< #points + 1: pairs of a point
+  std::vector<int> part;         ///< #pairs
+  std::vector<double> closest;   ///< #pairs: |X - X*|
+  std::vector<double> reach;     ///< #pairs: what min(., alpha) takes beside alpha; infinity: no hit
+  std::vector<Vec<Dim>> foot;    ///< #pairs: X*
+  std::vector<int> hit_part;     ///< #pairs: the part hit by the ray, -1: none. With the choice between
+                                 ///< reach and alpha it labels the smooth piece that X lies in.
+};
+
+/// Closest points and rays.
+///
+/// Rules. X on parts (within Boundary::tolerance()): theta = 1 for these (X =
+/// X*: no direction, no ray), 0 for all others: the Kronecker property; at a
+/// joint its parts share. Elsewhere the ray starts at X* and runs through X.
+/// Hits of other parts within 1e-7 of the model's size of X* are the joint that
+/// X* lies in and do not count. A hit between X* and X makes theta_i = 0
+/// (published): what another part hides is out of reach; the draft's formula
+/// looks from X on and does not see it. A ray that runs along a straight
+/// neighbour hits it where the overlap begins, or at its end if it begins at
+/// the joint. No hit: reach is infinite, only alpha counts. Inside a closed
+/// part that is a loop by itself theta_i = 1 (the published text's rule, for
+/// the variants with a ray): reach and alpha are ignored, closest is set to 0.
+template <int Dim>
+Distances<Dim> measure_distances(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
+                                 const Points<Dim>& position, DistanceWeight variant,
+                                 double max_distance, int n_threads = 1);
+
+/// theta > 0 of every point, in rows.
+template <int Dim>
+struct DistanceWeights {
+  double cutoff = 0;             ///< the alpha used
+  std::vector<int> begin;        ///< #points + 1
+  std::vector<int> part;         ///< #entries
+  std::vector<double> theta;     ///< #entries, in (0, 1]
+  std::vector<int> piece;        ///< #entries: smooth piece: the part whose hit decides, -1: the cutoff does
+  int n_parts = 0;
+};
+
+/// theta from distances. With options.sparsity the cutoff is the distance at
+/// which the share of non-zero weights among #points * #parts reaches T.
+/// Throws InputError (field `method.weights`) for alpha <= 0 or T outside (0, 1].
+template <int Dim>
+DistanceWeights<Dim> distance_weights(const Distances<Dim>& distances, const WeightOptions& options);
+
+}  // namespace sem

@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "sem/method/find_loops.h"
+
+namespace sem::detail {
+namespace {
+
+struct End {
+  int part;
+  bool last;  // the curve's last point, else its first
+  Vec<2> position;
+};
+
+std::vector<End> open_ends(const Boundary<2>& boundary, int solid) {
+  std::vector<End> ends;
+  for (int i = 0; i < boundary.n_parts(); ++i) {
+    if (boundary.solid[i] != solid) continue;
+    const auto& pieces = boundary.parts[i].pieces;
+    const Vec<2> first = pieces.front().points.col(0);
+    const Vec<2> last = pieces.back().points.col(pieces.back().points.cols() - 1);
+    ends.push_back({i, false, first});
+    ends.push_back({i, true, last});
+  }
+  return ends;
+}
+
+// Partner of every end: the closest pair first, ties by index.
+std::vector<int> match_ends(const std::vector<End>& ends) {
+  struct Pair {
+    double distance;
+    int a, b;
+  };
+  std::vector<Pair> pairs;
+  for (int a = 0; a < int(ends.size()); ++a)
+    for (int b = a + 1; b < int(ends.size()); ++b)
+      pairs.push_back({(ends[a].position - ends[b].position).norm(), a, b});
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& x, const Pair& y) { return x.distance < y.distance; });
+  std::vector<int> partner(ends.size(), -1);
+  for (const Pair& pair : pairs)
+    if (partner[pair.a] < 0 && partner[pair.b] < 0) {
+      partner[pair.a] = pair.b;
+      partner[pair.b] = pair.a;
+    }
+  return partner;
+}
+
+PreparedNurbs<1, 2> segment(const Vec<2>& a, const Vec<2>& b) {
+  Nurbs<1, 2> line;
+  line.degree = {1};
+  line.knots = {std::vector<double>{0, 0, 1, 1}};
+  line.control_points.resize(2, 2);
+  line.control_points << a, b;
+  line.weights = Eigen::Vector2d::Ones();
+  return prepare(line);
+}
+
+}  // namespace
+
+template <>
+Loops<2> join_parts<2>(const Boundary<2>& boundary) {
+  Loops<2> result;
+  for (int solid = 0; solid < boundary.n_solids; ++solid) {
+    const std::vector<End> ends = open_ends(boundary, solid);
+    const std::vector<int> partner = match_ends(ends);
+    std::vector<bool> visited(ends.size(), false);
+    for (int start = 0; start < int(ends.size()); start += 2) {
+      if (visited[start]) continue;
+      Loop<2> loop;
+      loop.solid = solid;
+      // Leave each part by the other of its ends until the loop closes.
+      for (int e = start; !visited[e]; e = partner[e ^ 1]) {
+        visited[e] = visited[e ^ 1] = true;
+        loop.parts.push_back(ends[e].part);
+        const Vec<2> from = ends[e ^ 1].position, to = ends[partner[e ^ 1]].position;
+        if (from == to) continue;
+        loop.caps.push_back(int(result.caps.size()));
+        result.caps.push_back(segment(from, to));
+        result.cap_length.push_back((to - from).norm());
+      }
+      result.loops.push_back(std::move(loop));
+    }
+  }
+  return result;
+}
+
+}  // namespace sem::detail

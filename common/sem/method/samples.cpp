@@ -1,0 +1,112 @@
+#include "sem/method/samples.h"
+
+#include "sem/base/error.h"
+#include "sem/method/line_rules.h"
+#include "sem/nurbs/basis.h"
+
+namespace sem {
+namespace {
+
+// Gauss-Lobatto points of all knot spans along one direction. A point shared
+// by two spans is kept once, with both weights.
+LineRule span_points(const std::vector<Interval>& spans, int n) {
+  const LineRule reference = gauss_lobatto(n);
+  LineRule rule;
+  for (const auto& [a, b] : spans)
+    for (int k = 0; k < n; ++k) {
+      const double u = k == n - 1 ? b : a + (b - a) * (1 + reference.node[k]) / 2;
+      const double weight = reference.weight[k] * (b - a) / 2;
+      if (k == 0 && !rule.node.empty() && rule.node.back() == u) {
+        rule.weight.back() += weight;
+      } else {
+        rule.node.push_back(u);
+        rule.weight.push_back(weight);
+      }
+    }
+  return rule;
+}
+
+// Appends the tensor-product samples of one part.
+template <int Dim>
+void append_part(const Nurbs<Dim - 1, Dim>& nurbs, int part, int first_control, int points_per_span,
+                 Samples<Dim>& out, std::vector<Vec<Dim>>& position, std::vector<double>& weight) {
+  constexpr int param_dim = Dim - 1;
+  std::array<LineRule, param_dim> rules;
+  int n = 1;
+  for (int a = 0; a < param_dim; ++a) {
+    rules[a] = span_points(spans(nurbs, a),
+                           points_per_span > 0 ? points_per_span : nurbs.degree[a] + 1);
+    n *= int(rules[a].node.size());
+  }
+  BasisValues<param_dim> basis;
+  for (int k = 0; k < n; ++k) {
+    Param<param_dim> u;
+    double w = 1;
+    for (int a = 0, rest = k; a < param_dim; ++a) {
+      const int size = int(rules[a].node.size());
+      u[a] = rules[a].node[rest % size];
+      w *= rules[a].weight[rest % size];
+      rest /= size;
+    }
+    evaluate_basis(nurbs, u, 1, basis);
+    Vec<Dim> X = Vec<Dim>::Zero();
+    Eigen::Matrix<double, Dim, param_dim> tangents = Eigen::Matrix<double, Dim, param_dim>::Zero();
+    for (size_t e = 0; e < basis.column.size(); ++e) {
+      const Vec<Dim> p = nurbs.control_points.col(basis.column[e]);
+      X += basis.value[e] * p;
+      for (int a = 0; a < param_dim; ++a) tangents.col(a) += basis.first[a][e] * p;
+      if (basis.value[e] == 0) continue;
+      out.column.push_back(first_control + basis.column[e]);
+      out.value.push_back(basis.value[e]);
+    }
+    out.row.push_back(int(out.column.size()));
+    out.u.push_back(u);
+    out.part.push_back(part);
+    position.push_back(X);
+    weight.push_back(w * DimTraits<Dim>::area_normal(tangents).norm());
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+Samples<Dim> sample_boundary(const Boundary<Dim>& boundary, const SamplingOptions& options) {
+  if (options.points_per_span < 0 || options.points_per_span == 1)
+    throw InputError("", "method.samples.points_per_span", std::to_string(options.points_per_span),
+                     "0 (NURBS degree + 1), or at least 2");
+  Samples<Dim> samples;
+  std::vector<Vec<Dim>> position;
+  std::vector<double> weight;
+  samples.row.push_back(0);
+  for (int i = 0; i < boundary.n_parts(); ++i) {
+    samples.first.push_back(samples.size());
+    append_part<Dim>(boundary.parts[i].nurbs, i, boundary.first_control[i], options.points_per_span,
+                     samples, position, weight);
+  }
+  samples.first.push_back(samples.size());
+  samples.position.resize(Dim, samples.size());
+  samples.weight.resize(samples.size());
+  for (int s = 0; s < samples.size(); ++s) {
+    samples.position.col(s) = position[s];
+    samples.weight[s] = weight[s];
+  }
+  if (options.weight == SampleWeight::uniform)
+    samples.weight.setConstant(samples.weight.sum() / samples.size());
+  return samples;
+}
+
+template <int Dim>
+Eigen::MatrixXd sample_jacobian(const Samples<Dim>& samples, int n_controls) {
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(samples.size(), n_controls);
+  for (int s = 0; s < samples.size(); ++s)
+    for (int e = samples.row[s]; e < samples.row[s + 1]; ++e)
+      J(s, samples.column[e]) += samples.value[e];
+  return J;
+}
+
+template Samples<2> sample_boundary<2>(const Boundary<2>&, const SamplingOptions&);
+template Samples<3> sample_boundary<3>(const Boundary<3>&, const SamplingOptions&);
+template Eigen::MatrixXd sample_jacobian<2>(const Samples<2>&, int);
+template Eigen::MatrixXd sample_jacobian<3>(const Samples<3>&, int);
+
+}  // namespace sem

@@ -1,0 +1,45 @@
+#pragma once
+// Stage 2: boundary samples q = J p.
+
+#include <vector>
+
+#include "sem/method/boundary.h"
+
+namespace sem {
+
+enum class SampleWeight {
+  measure,  ///< arc length or area
+  uniform,  ///< all samples of the model count the same, as in the draft's eq. 4; same total
+};
+
+struct SamplingOptions {
+  int points_per_span = 0;  ///< Gauss-Lobatto points per knot span and direction; 0: NURBS degree + 1
+  SampleWeight weight = SampleWeight::measure;
+};
+
+/// Samples of all parts, ordered by part.
+template <int Dim>
+struct Samples {
+  Points<Dim> position;                 ///< Dim by #samples, rest position X = J p0
+  Eigen::VectorXd weight;               ///< #samples, m (2D) or m^2 (3D); sums to the boundary's measure
+  std::vector<Param<Dim - 1>> u;        ///< #samples
+  std::vector<int> part;                ///< #samples
+  std::vector<int> first;               ///< #parts + 1: where a part's samples start
+  // Scalar rows of J (eq. 9): sample s = sum_e value[e] * p_{column[e]}, e in [row[s], row[s+1]).
+  std::vector<int> row, column;
+  std::vector<double> value;
+
+  int size() const { return int(part.size()); }
+};
+
+/// Gauss-Lobatto points in every knot span, ends included, so that a span's
+/// ends are samples. With degree + 1 points per span J determines p wherever
+/// a span's basis does. Throws InputError if points_per_span is 1 or negative.
+template <int Dim>
+Samples<Dim> sample_boundary(const Boundary<Dim>& boundary, const SamplingOptions& options);
+
+/// J as a dense scalar matrix, #samples by n_controls.
+template <int Dim>
+Eigen::MatrixXd sample_jacobian(const Samples<Dim>& samples, int n_controls);
+
+}  // namespace sem

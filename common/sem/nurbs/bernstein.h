@@ -1,0 +1,102 @@
+#pragma once
+// Internal: polynomials of one variable on [0, 1] in Bernstein form,
+// f(s) = sum_i c[i] B_i(s), c of length degree + 1.
+
+#include <cmath>
+
+namespace sem::detail {
+
+/// Both halves of f, as polynomials on [0, 1] again. `right` may be `c`.
+inline void split_half(const double* c, int degree, double* left, double* right) {
+  for (int i = 0; i <= degree; ++i) right[i] = c[i];
+  for (int j = 0; j <= degree; ++j) {
+    left[j] = right[0];
+    for (int i = 0; i < degree - j; ++i) right[i] = 0.5 * (right[i] + right[i + 1]);
+  }
+}
+
+/// f(s) and f'(s) by de Casteljau; scratch holds degree + 1.
+struct ValueSlope {
+  double value, slope;
+};
+inline ValueSlope evaluate(const double* c, int degree, double s, double* scratch) {
+  for (int i = 0; i <= degree; ++i) scratch[i] = c[i];
+  for (int n = degree; n > 1; --n)
+    for (int i = 0; i < n; ++i) scratch[i] += s * (scratch[i + 1] - scratch[i]);
+  const double slope = scratch[1] - scratch[0];
+  return {scratch[0] + s * slope, degree * slope};
+}
+
+/// The only sign change of f inside (0, 1), from the sign given to the other:
+/// Newton, kept inside a bracket. The values at the ends may be rounding.
+inline double single_root(const double* c, int degree, bool start_positive, double* scratch) {
+  double lower = 0, upper = 1;
+  const bool secant = c[0] != 0 && c[degree] != 0 && (c[0] > 0) != (c[degree] > 0);
+  double s = secant ? c[0] / (c[0] - c[degree]) : 0.5;
+  double step = 1;
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const auto [value, slope] = evaluate(c, degree, s, scratch);
+    if (value == 0) return s;
+    ((value > 0) == start_positive ? lower : upper) = s;
+    const double newton = s - value / slope;
+    // Bisect where Newton leaves the bracket or no longer halves the step.
+    const bool trusted = newton > lower && newton < upper && std::abs(newton - s) < 0.5 * step;
+    const double next = trusted ? newton : 0.5 * (lower + upper);
+    step = std::abs(next - s);
+    if (step <= 1.2e-16 || upper - lower <= 2.3e-16) return next;
+    s = next;
+  }
+  return s;
+}
+
+/// All Bernstein polynomials of a degree at s and their derivatives up to
+/// `order` (0 to 2): out[m][i], rows of length `row`.
+inline void bernstein_basis(int degree, double s, int order, int row, double* out) {
+  double* B = out;
+  B[0] = 1;
+  for (int j = 1; j <= degree; ++j) {
+    // Derivative m needs the basis of degree - m.
+    for (int m = 1; m <= order; ++m)
+      if (j == degree - m + 1)
+        for (int i = 0; i < j; ++i) out[m * row + i] = B[i];
+    B[j] = s * B[j - 1];
+    for (int i = j - 1; i > 0; --i) B[i] = (1 - s) * B[i] + s * B[i - 1];
+    B[0] *= 1 - s;
+  }
+  for (int m = 1; m <= order; ++m) {
+    double* D = out + m * row;
+    if (degree < m) {
+      for (int i = 0; i <= degree; ++i) D[i] = 0;
+      continue;
+    }
+    for (int k = degree - m + 1; k <= degree; ++k) {  // to degree k by differences
+      D[k] = k * D[k - 1];
+      for (int i = k - 1; i > 0; --i) D[i] = k * (D[i - 1] - D[i]);
+      D[0] *= -k;
+    }
+  }
+}
+
+/// Splits a tensor product patch at s along an axis: c holds n_u by n_v
+/// coefficients of n_values each, u fastest, values of one coefficient
+/// together. `right` may be `c`.
+inline void split_patch(const double* c, const int* degree, int axis, double s, int n_values,
+                        double* left, double* right) {
+  const int n_u = degree[0] + 1, n_v = degree[1] + 1, n = n_u * n_v * n_values;
+  if (right != c)
+    for (int i = 0; i < n; ++i) right[i] = c[i];
+  const int stride = axis == 0 ? n_values : n_u * n_values;
+  const int n_lines = axis == 0 ? n_v : n_u, line_stride = axis == 0 ? n_u * n_values : n_values;
+  for (int line = 0; line < n_lines; ++line)
+    for (int value = 0; value < n_values; ++value) {
+      double* r = right + line * line_stride + value;
+      double* l = left + line * line_stride + value;
+      for (int j = 0; j <= degree[axis]; ++j) {
+        l[j * stride] = r[0];
+        for (int i = 0; i < degree[axis] - j; ++i)
+          r[i * stride] += s * (r[(i + 1) * stride] - r[i * stride]);
+      }
+    }
+}
+
+}  // namespace sem::detail

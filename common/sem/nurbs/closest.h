@@ -1,0 +1,33 @@
+#pragma once
+// The globally closest point of a curve (2D) or a surface (3D).
+
+#include <limits>
+
+#include "sem/nurbs/prepared.h"
+
+namespace sem {
+
+/// Closest point of a part.
+template <int Dim>
+struct ClosestPoint {
+  Param<Dim - 1> u;
+  Vec<Dim> point;
+  double distance;
+};
+
+/// The point of the part closest to X, found by branch and bound, not from a
+/// start value: no point of the part is closer by more than 1e-14 of
+/// (distance + size of the part). Among points as close as that, the one of
+/// smallest parameter (surfaces: smallest v, then u). If no point is within
+/// `cutoff`, the distance may be returned as infinity, with NaN for u and
+/// point. Does not allocate in the steady state.
+template <int Dim>
+ClosestPoint<Dim> closest_point(const PreparedNurbs<Dim - 1, Dim>& part, const Vec<Dim>& X,
+                                double cutoff = std::numeric_limits<double>::infinity());
+
+template <>
+ClosestPoint<2> closest_point(const PreparedNurbs<1, 2>& part, const Vec<2>& X, double cutoff);
+template <>
+ClosestPoint<3> closest_point(const PreparedNurbs<2, 3>& part, const Vec<3>& X, double cutoff);
+
+}  // namespace sem

@@ -1,0 +1,372 @@
+#include <algorithm>
+#include <cmath>
+
+#include "sem/nurbs/basis.h"
+#include "sem/nurbs/bernstein.h"
+#include "sem/nurbs/hits.h"
+
+// Two functions f, g = w n.(P - origin), n perpendicular to the line, vanish
+// together where the line meets the surface. A patch is split until its
+// convex hull excludes a root, or its Jacobian is dominated by the diagonal
+// (after multiplication by the inverse at the centre), so that it has at most
+// one root and Newton finds it. What is left, down to the smallest patch, are
+// tangencies and stretches along the line.
+
+namespace sem {
+namespace {
+
+constexpr int max_functions = max_nurbs_degree + 1;
+constexpr int max_halvings = 27;     // of each axis, for tangencies
+constexpr int coarse_halvings = 9;   // once max_patches are exceeded: a line along the surface
+constexpr int max_patches = 8000;    // per piece
+
+struct Patch {
+  double lower[2], upper[2];  // in [0, 1]^2 of the piece
+  int halvings[2];
+};
+
+struct Candidate {
+  Hit<3> hit;
+  double reach;  // size of the patch a degenerate hit stands for, 0 if it is simple
+};
+
+// Kept between calls so that nothing is allocated in the steady state.
+struct Scratch {
+  std::vector<double> coefficients;  // of the stack: f, g interleaved
+  std::vector<Patch> patches;
+  std::vector<Candidate> candidates;
+};
+
+struct Jet {
+  Vec<2> value;
+  Mat<2> jacobian;
+};
+
+class SurfaceHits {
+ public:
+  SurfaceHits(const PreparedNurbs<2, 3>& part, const Line<3>& line, Scratch& scratch)
+      : part_(part), line_(line), scratch_(scratch) {
+    const Vec<3> d = line.direction.normalized();
+    int smallest;
+    d.cwiseAbs().minCoeff(&smallest);
+    normals_.col(0) = d.cross(Vec<3>::Unit(smallest)).normalized();
+    normals_.col(1) = d.cross(normals_.col(0));
+    const Vec<3> largest = part.box.lower.cwiseAbs().cwiseMax(part.box.upper.cwiseAbs());
+    const int degree = part.nurbs.degree[0] + part.nurbs.degree[1];
+    tolerance_ = (16 + degree) * 2.2e-16 * (largest + line.origin.cwiseAbs()).sum();
+  }
+
+  void run() {
+    scratch_.candidates.clear();
+    for (const auto& piece : part_.pieces)
+      if (!misses_box(piece.box)) search(piece);
+  }
+
+ private:
+  bool misses_box(const Box<3>& box) const {
+    const Vec<3> centre = 0.5 * (box.lower + box.upper) - line_.origin;
+    const Vec<3> half = 0.5 * (box.upper - box.lower);
+    for (int k = 0; k < 2; ++k)
+      if (std::abs(normals_.col(k).dot(centre)) > normals_.col(k).cwiseAbs().dot(half) + tolerance_)
+        return true;
+    return false;
+  }
+
+  double* coefficients(int k) { return &scratch_.coefficients[size_t(k) * 2 * n_]; }
+
+  void reserve(int n_patches) {
+    if (int(scratch_.patches.size()) < n_patches) scratch_.patches.resize(n_patches);
+    if (scratch_.coefficients.size() < size_t(n_patches) * 2 * n_)
+      scratch_.coefficients.resize(size_t(n_patches) * 2 * n_);
+  }
+
+  void search(const BezierPiece<2, 3>& piece) {
+    piece_ = &piece;
+    n_ = int(piece.weights.size());
+    reserve(2 * max_halvings + 4);
+    f_tolerance_ = tolerance_ * piece.weights.maxCoeff();
+    double* whole = coefficients(0);
+    for (int i = 0; i < n_; ++i) {
+      const Vec<3> X = piece.points.col(i) - line_.origin;
+      for (int k = 0; k < 2; ++k) whole[2 * i + k] = piece.weights[i] * normals_.col(k).dot(X);
+    }
+    scratch_.patches[0] = {{0, 0}, {1, 1}, {0, 0}};
+    n_patches_ = 0;
+    bool along = false;
+    for (int n = 1; n > 0;) {
+      Patch& right = scratch_.patches[n - 1];
+      double* c = coefficients(n - 1);
+      if (finish(right, c)) {
+        along = along || n_patches_ > max_patches;
+        --n;
+        continue;
+      }
+      const int axis = axis_to_split(right, c);
+      Patch& left = scratch_.patches[n];
+      left = right;
+      left.upper[axis] = right.lower[axis] = 0.5 * (right.lower[axis] + right.upper[axis]);
+      ++right.halvings[axis];
+      ++left.halvings[axis];
+      detail::split_patch(c, piece.degree.data(), axis, 0.5, 2, coefficients(n), c);
+      ++n;
+    }
+    if (along) add_edges();
+  }
+
+  // Whether a linear combination of f and g has no root by its hull.
+  bool excluded(const double* c, double a, double b) const {
+    double lowest = a * c[0] + b * c[1], highest = lowest;
+    for (int i = 1; i < n_; ++i) {
+      const double value = a * c[2 * i] + b * c[2 * i + 1];
+      lowest = std::min(lowest, value);
+      highest = std::max(highest, value);
+    }
+    const double tolerance = (std::abs(a) + std::abs(b)) * f_tolerance_;
+    return lowest > tolerance || highest < -tolerance;
+  }
+
+  Jet evaluate(const double* c, const Vec<2>& s) const {
+    double B[2][2][max_functions];
+    for (int a = 0; a < 2; ++a)
+      detail::bernstein_basis(piece_->degree[a], s[a], 1, max_functions, B[a][0]);
+    Jet jet{Vec<2>::Zero(), Mat<2>::Zero()};
+    for (int j = 0, i = 0; j <= piece_->degree[1]; ++j)
+      for (int k = 0; k <= piece_->degree[0]; ++k, ++i) {
+        const Vec<2> value(c[2 * i], c[2 * i + 1]);
+        jet.value += B[0][0][k] * B[1][0][j] * value;
+        jet.jacobian.col(0) += B[0][1][k] * B[1][0][j] * value;
+        jet.jacobian.col(1) += B[0][0][k] * B[1][1][j] * value;
+      }
+    return jet;
+  }
+
+  // True if the patch is done: excluded, or its hits are added.
+  bool finish(const Patch& patch, const double* c) {
+    ++n_patches_;
+    if (excluded(c, 1, 0) || excluded(c, 0, 1)) return true;
+    const Mat<2> J = evaluate(c, {0.5, 0.5}).jacobian;
+    const double determinant = J.determinant();
+    if (std::abs(determinant) > 1e-9 * J.squaredNorm()) {
+      Mat<2> inverse;
+      inverse << J(1, 1), -J(0, 1), -J(1, 0), J(0, 0);
+      inverse /= determinant;
+      if (excluded(c, inverse(0, 0), inverse(0, 1)) || excluded(c, inverse(1, 0), inverse(1, 1)))
+        return true;
+      if (at_most_one(c, inverse) && add_simple(patch, c)) return true;
+    }
+    // The combination with the least gradient, for patches near a tangency.
+    const Mat<2> M = J * J.transpose();
+    const double angle = 0.5 * std::atan2(2 * M(0, 1), M(0, 0) - M(1, 1));
+    if (excluded(c, -std::sin(angle), std::cos(angle))) return true;
+    const int limit = n_patches_ > max_patches ? coarse_halvings : max_halvings;
+    if (std::min(patch.halvings[0], patch.halvings[1]) < limit &&
+        std::max(patch.halvings[0], patch.halvings[1]) < max_halvings)
+      return false;
+    add_degenerate(patch);
+    return true;
+  }
+
+  // Diagonal dominance of inverse * Jacobian over the whole patch.
+  bool at_most_one(const double* c, const Mat<2>& inverse) const {
+    double least[2] = {1e300, 1e300}, largest[2] = {0, 0};
+    const int n_u = piece_->degree[0] + 1;
+    for (int i = 0; i < n_; ++i)
+      for (int axis = 0; axis < 2; ++axis) {
+        const int next = axis == 0 ? i + 1 : i + n_u;
+        if (axis == 0 ? next % n_u == 0 : next >= n_) continue;
+        const Vec<2> difference(c[2 * next] - c[2 * i], c[2 * next + 1] - c[2 * i + 1]);
+        const Vec<2> slope = piece_->degree[axis] * (inverse * difference);
+        least[axis] = std::min(least[axis], slope[axis]);
+        largest[1 - axis] = std::max(largest[1 - axis], std::abs(slope[1 - axis]));
+      }
+    return least[0] > largest[0] && least[1] > largest[1];
+  }
+
+  // Newton on a patch with at most one root; false if that settles nothing.
+  bool add_simple(const Patch& patch, const double* c) {
+    Vec<2> s(0.5, 0.5);
+    for (int iteration = 0; iteration < 30; ++iteration) {
+      const Jet jet = evaluate(c, s);
+      const Vec<2> step = jet.jacobian.inverse() * jet.value;
+      s -= step;
+      if (!(s.cwiseAbs().maxCoeff() < 4)) return false;
+      if (step.cwiseAbs().maxCoeff() > 1e-15) continue;
+      break;
+    }
+    if ((s.array() < -1e-8).any() || (s.array() > 1 + 1e-8).any()) return false;
+    Vec<2> global;
+    for (int a = 0; a < 2; ++a)
+      global[a] = std::clamp(patch.lower[a] + s[a] * (patch.upper[a] - patch.lower[a]), 0.0, 1.0);
+    return add(global, 0);
+  }
+
+  // Least squares on a patch too small to tell more: a touching point.
+  void add_degenerate(const Patch& patch) {
+    Eigen::Map<const Vec<2>> lower(patch.lower), upper(patch.upper);
+    Vec<2> s = 0.5 * (lower + upper);
+    const double* whole = whole_coefficients();
+    for (int iteration = 0; iteration < 20; ++iteration) {
+      const Jet jet = evaluate(whole, s);
+      const Mat<2> A = jet.jacobian.transpose() * jet.jacobian;
+      const double damping = 1e-12 * A.trace() + 1e-300;
+      const Vec<2> step =
+          (A + damping * Mat<2>::Identity()).inverse() * (jet.jacobian.transpose() * jet.value);
+      const Vec<2> next = (s - step).cwiseMax(lower).cwiseMin(upper);
+      const bool done = (next - s).cwiseAbs().maxCoeff() < 1e-16;
+      s = next;
+      if (done) break;
+    }
+    Box<3> box;
+    box.include(point(*piece_, Param<2>(lower)));
+    box.include(point(*piece_, Param<2>(upper)));
+    add(s, std::max(box.diagonal(), 1e-7 * part_.box.diagonal()));
+  }
+
+  // Where a stretch along the line leaves the piece: its corners, and the
+  // roots of f or g on its edges (sampled signs, then bisection).
+  void add_edges() {
+    const double* whole = whole_coefficients();
+    constexpr int n_samples = 64;
+    const double reach = part_.box.diagonal() / n_samples;
+    for (int axis = 0; axis < 2; ++axis)
+      for (int side = 0; side < 2; ++side) {
+        Vec<2> s = Vec<2>::Constant(side), last_value = Vec<2>::Zero();
+        for (int k = 0; k <= n_samples; ++k) {
+          s[axis] = double(k) / n_samples;
+          const Vec<2> value = evaluate(whole, s).value;
+          if (k == 0 || k == n_samples) add(s, reach);
+          for (int f = 0; k > 0 && f < 2; ++f) {
+            if ((last_value[f] > 0) == (value[f] > 0)) continue;
+            Vec<2> root = s;
+            double a = double(k - 1) / n_samples, b = s[axis];
+            for (int halving = 0; halving < 60; ++halving) {
+              root[axis] = 0.5 * (a + b);
+              ((evaluate(whole, root).value[f] > 0) == (value[f] > 0) ? b : a) = root[axis];
+            }
+            add(root, reach);
+          }
+          last_value = value;
+        }
+      }
+  }
+
+  const double* whole_coefficients() {
+    whole_.resize(2 * n_);
+    for (int i = 0; i < n_; ++i) {
+      const Vec<3> X = piece_->points.col(i) - line_.origin;
+      for (int k = 0; k < 2; ++k) whole_[2 * i + k] = piece_->weights[i] * normals_.col(k).dot(X);
+    }
+    return whole_.data();
+  }
+
+  // Adds a hit at local parameters if it is on the line to rounding.
+  bool add(const Vec<2>& s, double reach) {
+    const Vec<3> X = point(*piece_, Param<2>(s)) - line_.origin;
+    if ((normals_.transpose() * X).cwiseAbs().maxCoeff() > 4 * tolerance_) return false;
+    Candidate candidate;
+    Hit<3>& hit = candidate.hit;
+    hit.t = X.dot(line_.direction) / line_.direction.squaredNorm();
+    for (int a = 0; a < 2; ++a)
+      hit.u[a] = s[a] == 1 ? piece_->upper[a]
+                           : piece_->lower[a] + s[a] * (piece_->upper[a] - piece_->lower[a]);
+    const Vec<3> normal = DimTraits<3>::area_normal(derivatives(part_.nurbs, hit.u).first);
+    hit.tangent = std::abs(normal.dot(line_.direction)) <=
+                  1e-6 * normal.norm() * line_.direction.norm();
+    hit.crosses = !hit.tangent;
+    hit.along = false;
+    candidate.reach = reach;
+    scratch_.candidates.push_back(candidate);
+    return true;
+  }
+
+  int axis_to_split(const Patch& patch, const double* c) const {
+    double variation[2] = {0, 0};
+    const int n_u = piece_->degree[0] + 1;
+    for (int i = 0; i < n_; ++i)
+      for (int axis = 0; axis < 2; ++axis) {
+        const int next = axis == 0 ? i + 1 : i + n_u;
+        if (axis == 0 ? next % n_u == 0 : next >= n_) continue;
+        for (int k = 0; k < 2; ++k)
+          variation[axis] =
+              std::max(variation[axis], piece_->degree[axis] * std::abs(c[2 * next + k] - c[2 * i + k]));
+      }
+    // Not the longest way in the plane alone: keep patches of bounded shape.
+    if (std::abs(patch.halvings[0] - patch.halvings[1]) > 3)
+      return patch.halvings[0] < patch.halvings[1] ? 0 : 1;
+    return variation[0] >= variation[1] ? 0 : 1;
+  }
+
+  const PreparedNurbs<2, 3>& part_;
+  const Line<3>& line_;
+  Scratch& scratch_;
+  Eigen::Matrix<double, 3, 2> normals_;
+  double tolerance_ = 0, f_tolerance_ = 0;
+  const BezierPiece<2, 3>* piece_ = nullptr;
+  int n_ = 0, n_patches_ = 0;
+  std::vector<double> whole_;  // used for degenerate hits only
+};
+
+// The same point found from neighbouring patches.
+bool same_hit(const Hit<3>& a, const Hit<3>& b, const Vec<2>& domain_size, double t_tolerance) {
+  return std::abs(a.t - b.t) <= t_tolerance &&
+         ((a.u - b.u).cwiseAbs().array() <= 1e-7 * domain_size.array()).all();
+}
+
+// Appends the simple hits once each; degenerate ones in clusters: a tangency
+// gives one hit, a stretch along the line gives its two ends.
+void append_merged(const PreparedNurbs<2, 3>& part, double speed, std::vector<Candidate>& found,
+                   std::vector<Hit<3>>& out) {
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    return a.hit.t != b.hit.t ? a.hit.t < b.hit.t : a.hit.u[0] < b.hit.u[0];
+  });
+  const double size = part.box.diagonal();
+  Vec<2> domain_size;
+  for (int a = 0; a < 2; ++a)
+    domain_size[a] = domain(part.nurbs, a).upper - domain(part.nurbs, a).lower;
+  const size_t first_out = out.size();
+  const auto append = [&](const Hit<3>& hit) {
+    for (size_t k = out.size(); k-- > first_out;)
+      if (same_hit(out[k], hit, domain_size, 1e-9 * size / speed)) return;
+    out.push_back(hit);
+  };
+  for (const auto& candidate : found)
+    if (candidate.reach == 0) append(candidate.hit);
+  const auto degenerate = [](const Candidate& c) { return c.reach > 0; };
+  for (auto first = std::find_if(found.begin(), found.end(), degenerate); first != found.end();) {
+    auto last = first, next = first;
+    while ((next = std::find_if(next + 1, found.end(), degenerate)) != found.end() &&
+           (next->hit.t - last->hit.t) * speed <= 2.5 * std::max(next->reach, last->reach))
+      last = next;
+    Hit<3> start = first->hit, end = last->hit;
+    if ((end.t - start.t) * speed > 1e-5 * size) {
+      start.along = end.along = true;
+      append(start);
+      append(end);
+    } else {
+      const bool near_simple = std::any_of(out.begin() + first_out, out.end(), [&](const auto& hit) {
+        return same_hit(hit, start, 10 * domain_size, 1e-5 * size / speed);
+      });
+      if (!near_simple) append((first + (last - first) / 2)->hit);
+    }
+    first = next;
+  }
+}
+
+}  // namespace
+
+template <>
+void append_hits<3>(const PreparedNurbs<2, 3>& part, const Line<3>& line, double t_min,
+                    double t_max, std::vector<Hit<3>>& out) {
+  thread_local Scratch scratch;
+  SurfaceHits(part, line, scratch).run();
+  const size_t first = out.size();
+  append_merged(part, line.direction.norm(), scratch.candidates, out);
+  out.erase(std::remove_if(out.begin() + first, out.end(),
+                           [&](const Hit<3>& hit) { return !(hit.t >= t_min && hit.t <= t_max); }),
+            out.end());
+  std::sort(out.begin() + first, out.end(), [](const Hit<3>& a, const Hit<3>& b) {
+    return a.t != b.t ? a.t < b.t : a.u[0] < b.u[0];
+  });
+}
+
+}  // namespace sem

@@ -1,0 +1,150 @@
+#include "sem/nurbs/prepared.h"
+
+#include "sem/nurbs/axis_map.h"
+
+namespace sem {
+namespace {
+
+// Bezier control points of all spans along an axis, one after the other;
+// neighbours share a row unless the knot between them has multiplicity
+// degree + 1. start[s] is the first row of span s.
+detail::AxisMap bezier_map(const std::vector<double>& knots, int degree,
+                           const std::vector<Interval>& spans, std::vector<int>& start) {
+  detail::AxisMap map;
+  std::vector<double> arguments(degree);
+  for (const auto& [lower, upper] : spans) {
+    const int k = detail::find_span(knots, degree, lower);
+    const bool jump = map.first.empty() || knots[k - degree] == lower;
+    start.push_back(int(map.first.size()) - (jump ? 0 : 1));
+    for (int j = jump ? 0 : 1; j <= degree; ++j) {
+      for (int a = 0; a < degree; ++a) arguments[a] = a < degree - j ? lower : upper;
+      detail::append_polar_form(knots, degree, k, arguments.data(), map);
+    }
+  }
+  return map;
+}
+
+// C = A / W, so C' = E / W^2 with E = A' W - A W', and (C - X).C' has the sign
+// of (A - W X).E. Products are convolutions of coefficients times binomials.
+template <int Dim>
+void prepare_foot(BezierPiece<1, Dim>& piece) {
+  const int p = piece.degree[0];
+  const bool polynomial = (piece.weights.array() == piece.weights[0]).all();
+  const Vec<Dim> centre = 0.5 * (piece.box.lower + piece.box.upper);
+  const auto binomials = [](int n) {
+    Eigen::VectorXd b(n + 1);
+    b[0] = 1;
+    for (int k = 1; k <= n; ++k) b[k] = b[k - 1] * (n - k + 1) / k;
+    return b;
+  };
+  const Eigen::VectorXd b0 = binomials(p), b1 = binomials(p - 1);
+  Points<Dim> A = piece.points.colwise() - centre;
+  for (int i = 0; i <= p; ++i) A.col(i) *= piece.weights[i] * b0[i];
+  const Eigen::VectorXd W = piece.weights.cwiseProduct(b0);
+  Points<Dim> E = Points<Dim>::Zero(Dim, polynomial ? p : 2 * p);
+  for (int i = 0; i < p; ++i) {
+    const double dw = b1[i] * (piece.weights[i + 1] - piece.weights[i]);
+    // Slope of A from differences of positions, which are exact for equal ones.
+    const Vec<Dim> a0 = piece.points.col(i) - centre, a1 = piece.points.col(i + 1) - centre;
+    const Vec<Dim> dA = b1[i] * (piece.weights[i + 1] * (a1 - a0)) + dw * a0;
+    if (polynomial)
+      E.col(i) = dA;
+    else
+      for (int j = 0; j <= p; ++j) E.col(i + j) += dA * W[j] - A.col(j) * dw;
+  }
+  const int n = p + int(E.cols()) - 1;  // degree of the product
+  piece.foot.setZero(Dim + 1, n + 1);
+  for (int i = 0; i <= p; ++i)
+    for (int j = 0; j < E.cols(); ++j) {
+      piece.foot(0, i + j) += A.col(i).dot(E.col(j));
+      piece.foot.col(i + j).template tail<Dim>() += W[i] * E.col(j);
+    }
+  const Eigen::VectorXd b = binomials(n);
+  for (int k = 0; k <= n; ++k) piece.foot.col(k) /= b[k];
+}
+
+template <int Dim>
+void prepare_foot(BezierPiece<2, Dim>&) {}
+
+}  // namespace
+
+template <int ParamDim, int Dim>
+PreparedNurbs<ParamDim, Dim> prepare(const Nurbs<ParamDim, Dim>& nurbs) {
+  PreparedNurbs<ParamDim, Dim> result;
+  result.nurbs = nurbs;
+  Nurbs<ParamDim, Dim> bezier = nurbs;
+  std::array<std::vector<int>, ParamDim> start;
+  std::array<int, ParamDim> rows, index{};
+  int n_per_piece = 1;
+  for (int a = 0; a < ParamDim; ++a) {
+    const int degree = nurbs.degree[a];
+    result.spans[a] = spans(nurbs, a);
+    const auto map = bezier_map(nurbs.knots[a], degree, result.spans[a], start[a]);
+    detail::apply(map, a, bezier);
+    rows[a] = int(map.first.size());
+    bezier.knots[a].resize(rows[a] + degree + 1);  // n_control is all that is needed of it
+    n_per_piece *= degree + 1;
+  }
+  for (int axis = 0; axis < ParamDim;) {
+    BezierPiece<ParamDim, Dim> piece;
+    piece.degree = nurbs.degree;
+    piece.points.resize(Dim, n_per_piece);
+    piece.weights.resize(n_per_piece);
+    for (int a = 0; a < ParamDim; ++a) {
+      piece.lower[a] = result.spans[a][index[a]].lower;
+      piece.upper[a] = result.spans[a][index[a]].upper;
+    }
+    for (int i = 0; i < n_per_piece; ++i) {
+      int rest = i, column = 0, stride = 1;
+      for (int a = 0; a < ParamDim; ++a) {
+        column += (start[a][index[a]] + rest % (nurbs.degree[a] + 1)) * stride;
+        rest /= nurbs.degree[a] + 1;
+        stride *= rows[a];
+      }
+      piece.points.col(i) = bezier.control_points.col(column);
+      piece.weights[i] = bezier.weights[column];
+      piece.box.include(Vec<Dim>(piece.points.col(i)));
+    }
+    prepare_foot(piece);
+    result.box.include(piece.box);
+    result.pieces.push_back(std::move(piece));
+    for (axis = 0; axis < ParamDim; ++axis) {  // next span, u fastest
+      if (++index[axis] < int(result.spans[axis].size())) break;
+      index[axis] = 0;
+    }
+  }
+  return result;
+}
+
+template <int ParamDim, int Dim>
+Vec<Dim> point(const BezierPiece<ParamDim, Dim>& piece, const Param<ParamDim>& s) {
+  double basis[ParamDim][max_nurbs_degree + 1];
+  for (int a = 0; a < ParamDim; ++a) {
+    basis[a][0] = 1;
+    for (int j = 1; j <= piece.degree[a]; ++j) {
+      basis[a][j] = s[a] * basis[a][j - 1];
+      for (int r = j - 1; r > 0; --r) basis[a][r] = (1 - s[a]) * basis[a][r] + s[a] * basis[a][r - 1];
+      basis[a][0] *= 1 - s[a];
+    }
+  }
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  double weight = 0;
+  for (int i = 0; i < piece.weights.size(); ++i) {
+    double product = piece.weights[i];
+    for (int a = 0, rest = i; a < ParamDim; rest /= piece.degree[a] + 1, ++a)
+      product *= basis[a][rest % (piece.degree[a] + 1)];
+    sum += product * piece.points.col(i);
+    weight += product;
+  }
+  return sum / weight;
+}
+
+#define SEM_INSTANTIATE(P, D)                                       \
+  template PreparedNurbs<P, D> prepare(const Nurbs<P, D>&);         \
+  template Vec<D> point(const BezierPiece<P, D>&, const Param<P>&);
+SEM_INSTANTIATE(1, 2)
+SEM_INSTANTIATE(1, 3)
+SEM_INSTANTIATE(2, 3)
+#undef SEM_INSTANTIATE
+
+}  // namespace sem

@@ -1,0 +1,75 @@
+#include "sem/scene/analysis.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "sem/solve/integrators.h"
+
+namespace sem {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+long n_steps(const Analysis& analysis) {
+  return std::lround(analysis.duration / analysis.time_step);
+}
+
+AnalysisReport march(const System& system, const Analysis& analysis, State& state,
+                     const StepCallback& on_step) {
+  AnalysisReport report;
+  const Stopwatch preparing;
+  TimeStepper stepper(system, analysis.time_step, analysis.integrator);
+  report.seconds = preparing.seconds();
+  Eigen::VectorXd before, acceleration;
+  const long last = n_steps(analysis);
+  while (state.step < last) {
+    before = state.v;
+    const Stopwatch watch;
+    const StepReport step = stepper.step(state);
+    report.seconds += watch.seconds();
+    report.iterations += step.iterations;
+    report.residual = std::max(report.residual, step.residual);
+    report.status = step.status;
+    if (step.status != Status::converged) break;
+    ++report.n_steps;
+    report.n_retried += step.n_substeps > 1;
+    acceleration = (state.v - before) / analysis.time_step;
+    on_step(state, {acceleration, step.iterations, step.residual, step.n_substeps});
+  }
+  report.counters = stepper.counters();
+  report.condition_estimate = stepper.condition_estimate();
+  return report;
+}
+
+AnalysisReport equilibrium(const System& system, const Analysis& analysis,
+                           const Eigen::VectorXd& target, State& state) {
+  StaticOptions options;
+  options.target = target;
+  options.n_load_steps = analysis.load_steps;
+  options.max_iterations = analysis.max_iterations;
+  options.tolerance = analysis.tolerance;
+  const Stopwatch watch;
+  const StaticReport solved = solve_static(system, state, options);
+  AnalysisReport report;
+  report.status = solved.status;
+  report.n_steps = solved.n_load_steps;
+  report.n_retried = solved.n_halvings;
+  report.iterations = solved.iterations;
+  report.residual = solved.residual;
+  report.condition_estimate = solved.condition_estimate;
+  report.counters = solved.counters;
+  report.seconds = watch.seconds();
+  return report;
+}
+
+}  // namespace sem

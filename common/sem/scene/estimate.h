@@ -1,0 +1,35 @@
+#pragma once
+// How wrong the probes may be: the run repeated with one setting changed at a time.
+
+#include <string>
+#include <vector>
+
+#include "sem/scene/scene.h"
+
+namespace sem {
+
+/// What changing one setting did to the probes (to the frequencies, in a modal analysis).
+struct Variation {
+  std::string setting;          ///< "twice the rays and points", ...
+  std::vector<double> change;   ///< per value: the largest difference over the times of the run
+  double seconds = 0;
+  std::string failure;          ///< why there is no result; then `change` is empty
+};
+
+/// An estimate of the solution's error, not a bound: what it is insensitive to
+/// it does not see. The paper's map does not converge, so no refinement alone
+/// can be trusted; the cutoff is varied for that reason.
+struct ErrorEstimate {
+  std::vector<std::string> columns;  ///< probe columns, or mode_1_rad_s, ...
+  std::vector<double> value;         ///< at the end of the run
+  std::vector<double> estimate;      ///< per column: the largest change by any variation
+  std::vector<Variation> variations;
+};
+
+/// Repeats the analysis with: twice the rays and points; every part halved;
+/// twice gamma; 1.5 times the cutoff; one polynomial degree more (one less at
+/// degree 4); half the time step (dynamics).
+template <int Dim>
+ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file);
+
+}  // namespace sem

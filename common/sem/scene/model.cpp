@@ -1,0 +1,259 @@
+#include "sem/scene/model.h"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include "sem/base/error.h"
+#include "sem/mechanics/loads.h"
+#include "sem/mechanics/quadratic_forms.h"
+#include "sem/nurbs/closest.h"
+
+namespace sem {
+
+using Eigen::VectorXd;
+
+bool matches_part(const std::string& selected, const std::string& solid, const std::string& part) {
+  const std::string group = part.substr(0, part.find('.'));
+  return selected == part || selected == group || selected == solid + "/" + part ||
+         selected == solid + "/" + group;
+}
+
+namespace {
+
+template <int Dim>
+class Builder {
+ public:
+  Builder(const Scene<Dim>& scene, const std::string& file) : scene_(scene), file_(file) {
+    for (const auto& solid : scene.solids)
+      for (const auto& part : solid.parts) {
+        part_names_.push_back({solid.name, part.name});
+        part_materials_.push_back(part.material ? &*part.material : nullptr);
+        part_densities_.push_back((part.material ? *part.material : solid.material).density);
+      }
+  }
+
+  std::unique_ptr<Model<Dim>> build() {
+    model_ = std::make_unique<Model<Dim>>();
+    discretize_parts();
+    timed("materials", [&] { assign_materials(); });
+    timed("operators", [&] { make_operators(); });
+    timed("pins", [&] { make_pins(); });
+    timed("loads", [&] { make_loads(); });
+    check_probes();
+    return std::move(model_);
+  }
+
+ private:
+  template <class Stage>
+  void timed(const char* name, const Stage& stage) {
+    const auto start = std::chrono::steady_clock::now();
+    stage();
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    model_->cost.push_back({name, spent.count()});
+  }
+
+  void discretize_parts() {
+    std::vector<std::vector<Nurbs<Dim - 1, Dim>>> solids;
+    for (const auto& solid : scene_.solids) {
+      solids.emplace_back();
+      for (const auto& part : solid.parts) solids.back().push_back(part.shape);
+    }
+    model_->discretization = discretize<Dim>(solids, scene_.method);
+    model_->cost = model_->discretization.cost;
+  }
+
+  // The solid's material, unless the part with the largest weight (the lowest
+  // index on a tie) has its own.
+  void assign_materials() {
+    const auto& d = model_->discretization;
+    auto& field = model_->materials;
+    for (const auto& solid : scene_.solids) field.materials.push_back(solid.material);
+    std::vector<int> own(part_materials_.size(), -1);
+    for (size_t i = 0; i < own.size(); ++i)
+      if (part_materials_[i]) {
+        own[i] = int(field.materials.size());
+        field.materials.push_back(*part_materials_[i]);
+      }
+    model_->point_mass.resize(d.quadrature.size());
+    for (int k = 0; k < d.quadrature.size(); ++k) {
+      const auto begin = d.weights.w.begin() + d.weights.begin[k];
+      const auto end = d.weights.w.begin() + d.weights.begin[k + 1];
+      const int heaviest = d.weights.part[std::max_element(begin, end) - d.weights.w.begin()];
+      const int m = own[heaviest] >= 0 ? own[heaviest] : d.quadrature.solid[k];
+      field.of_point.push_back(m);
+      model_->point_mass[k] = field.materials[m].density * d.quadrature.weight[k];
+    }
+  }
+
+  void make_operators() {
+    const auto& d = model_->discretization;
+    model_->stability = stability_matrix(d.on_boundary, d.samples);
+    model_->stability_stiffness = scene_.stability_stiffness > 0
+                                      ? scene_.stability_stiffness
+                                      : scene_.solids[0].material.youngs_modulus / d.boundary.box.diagonal();
+    model_->mass = mass_matrix(d.interior, model_->point_mass);
+    if (scene_.kinetic_length > 0) {
+      Samples<Dim> dense = d.samples;
+      for (int s = 0; s < dense.size(); ++s) dense.weight[s] *= part_densities_[dense.part[s]];
+      model_->mass += scene_.kinetic_length * stability_matrix(d.on_boundary, dense);
+    }
+    model_->energy = std::make_unique<InternalEnergy<Dim>>(
+        d.interior, d.quadrature.weight, model_->materials,
+        model_->stability_stiffness * model_->stability);
+    System& system = model_->system;
+    system.potential = model_->energy.get();
+    system.mass = expand(model_->mass, Dim);
+    const Points<Dim> p = rest_controls(d.boundary);
+    system.rest = Eigen::Map<const VectorXd>(p.data(), p.size());
+  }
+
+  // Control points selected by a pin, with all that coincide with them.
+  std::vector<int> select_controls(const Selector<Dim>& where, const std::string& field) const {
+    const auto& boundary = model_->discretization.boundary;
+    const Points<Dim> p = rest_controls(boundary);
+    std::set<int> controls;
+    for (int i = 0; i < boundary.n_parts(); ++i) {
+      if (!where.part.empty() && !matches_part(where.part, part_names_[i].first, part_names_[i].second))
+        continue;
+      const int n = boundary.first_control[i + 1] - boundary.first_control[i];
+      for (const int index : where.control_points)
+        if (index < 0 || index >= n)
+          throw InputError(file_, field + ".control_points", std::to_string(index),
+                           "0 to " + std::to_string(n - 1) + " for part '" + part_names_[i].second + "'");
+      for (int c = 0; c < n; ++c) {
+        const bool listed = where.control_points.empty() ||
+                            std::count(where.control_points.begin(), where.control_points.end(), c);
+        const int control = boundary.first_control[i] + c;
+        if (listed && (!where.box || in_box(*where.box, p.col(control)))) controls.insert(control);
+      }
+    }
+    for (const auto& group : coincident_controls(boundary))
+      if (std::any_of(group.begin(), group.end(), [&](int c) { return controls.count(c) > 0; }))
+        controls.insert(group.begin(), group.end());
+    return {controls.begin(), controls.end()};
+  }
+
+  bool in_box(const Box<Dim>& box, const Vec<Dim>& X) const {
+    const double tolerance = model_->discretization.boundary.tolerance();
+    return ((X - box.lower).array() >= -tolerance).all() && ((box.upper - X).array() >= -tolerance).all();
+  }
+
+  void make_pins() {
+    System& system = model_->system;
+    model_->target = system.rest;
+    std::vector<bool> held(system.size(), false);
+    for (size_t i = 0; i < scene_.pins.size(); ++i) {
+      const auto& pin = scene_.pins[i];
+      const std::string field = "pins[" + std::to_string(i) + "]";
+      const std::vector<int> controls = select_controls(pin.where, field);
+      if (controls.empty())
+        throw InputError(file_, field, "no control point", "a part, box or index that matches at least one");
+      model_->pinned.emplace_back();
+      for (const int control : controls)
+        for (int a = 0; a < Dim; ++a) {
+          const int entry = Dim * control + a;
+          if (!pin.axes[a]) continue;
+          held[entry] = true;
+          model_->pinned.back().push_back(entry);
+          model_->target[entry] = system.rest[entry] + pin.displacement[a];
+        }
+    }
+    for (int entry = 0; entry < system.size(); ++entry)
+      if (!held[entry]) system.free.push_back(entry);
+    if (system.free.empty())
+      throw InputError(file_, "pins", "all " + std::to_string(system.size()) + " unknowns pinned",
+                       "pins that leave something free");
+
+    const auto& d = model_->discretization;
+    const double mass = model_->total_mass();
+    const Vec<Dim> center = mass > 0 ? Vec<Dim>(d.quadrature.position * model_->point_mass / mass)
+                                     : Vec<Dim>(quadrature_center());
+    model_->initial.z = system.rest;
+    model_->initial.v = VectorXd::Zero(system.size());
+    for (const int entry : system.free) {
+      const int a = entry % Dim;
+      const Vec<Dim> r = system.rest.template segment<Dim>(entry - a) - center;
+      const double turn = a == 0 ? -r[1] : a == 1 ? r[0] : 0;  // about z
+      model_->initial.v[entry] = scene_.velocity[a] + scene_.angular_velocity * turn;
+    }
+  }
+
+  Vec<Dim> quadrature_center() const {
+    const auto& q = model_->discretization.quadrature;
+    return q.position * q.weight / q.weight.sum();
+  }
+
+  void make_loads() {
+    const auto& d = model_->discretization;
+    VectorXd& f = model_->system.load;
+    f = VectorXd::Zero(model_->system.size());
+    if (!scene_.gravity.isZero(0)) add_body_force<Dim>(d.interior, model_->point_mass, scene_.gravity, f);
+    for (const auto& load : scene_.body_loads) {
+      VectorXd volume = d.quadrature.weight;
+      if (!load.solid.empty())
+        for (int k = 0; k < d.quadrature.size(); ++k)
+          if (scene_.solids[d.quadrature.solid[k]].name != load.solid) volume[k] = 0;
+      add_body_force<Dim>(d.interior, volume, load.force, f);
+    }
+    for (size_t i = 0; i < scene_.point_loads.size(); ++i) {
+      require_in_body(scene_.point_loads[i].at, "loads (point, number " + std::to_string(i + 1) + ").at");
+      add_point_force<Dim>(d, scene_.point_loads[i].at, scene_.point_loads[i].force, f);
+    }
+    for (size_t i = 0; i < scene_.boundary_loads.size(); ++i) {
+      const auto& load = scene_.boundary_loads[i];
+      const Traction<Dim> traction = [&](int part, const Vec<Dim>& X, const Vec<Dim>& normal) -> Vec<Dim> {
+        const auto& [solid, name] = part_names_[part];
+        const bool here = (load.where.part.empty() || matches_part(load.where.part, solid, name)) &&
+                          (!load.where.box || in_box(*load.where.box, X));
+        if (!here) return Vec<Dim>::Zero();
+        return load.traction - load.pressure * normal;
+      };
+      if (add_traction<Dim>(d, traction, f) == 0 && (load.pressure != 0 || !load.traction.isZero(0)))
+        throw InputError(file_, "loads (boundary, number " + std::to_string(i + 1) + ")",
+                         "no boundary", "a part or box that matches some of it");
+    }
+  }
+
+  void require_in_body(const Vec<Dim>& X, const std::string& field) const {
+    const auto& d = model_->discretization;
+    if (inside(d.boundary, d.loops, X)) return;
+    const double near = 1e-6 * d.boundary.box.diagonal();
+    for (const auto& part : d.boundary.parts)
+      if (closest_point(part, X, 2 * near).distance <= near) return;
+    std::string text;
+    for (int a = 0; a < Dim; ++a) text += (a ? ", " : "[") + std::to_string(X[a]);
+    throw InputError(file_, field, text + "] outside of the body", "a rest point in or on it");
+  }
+
+  void check_probes() const {
+    for (size_t i = 0; i < scene_.probes.size(); ++i)
+      if (scene_.probes[i].kind != ProbeKind::reaction)
+        require_in_body(scene_.probes[i].at, "probes[" + std::to_string(i) + "].at");
+  }
+
+  const Scene<Dim>& scene_;
+  const std::string& file_;
+  std::vector<std::pair<std::string, std::string>> part_names_;  // solid, part
+  std::vector<const Material*> part_materials_;
+  std::vector<double> part_densities_;
+  std::unique_ptr<Model<Dim>> model_;
+};
+
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<Model<Dim>> build_model(const Scene<Dim>& scene, const std::string& file) {
+  try {
+    return Builder<Dim>(scene, file).build();
+  } catch (const InputError& error) {
+    // Stages know the field, not the file.
+    if (file.empty() || std::string(error.what()).starts_with(file)) throw;
+    throw InputError(file, error);
+  }
+}
+
+template std::unique_ptr<Model<2>> build_model<2>(const Scene<2>&, const std::string&);
+template std::unique_ptr<Model<3>> build_model<3>(const Scene<3>&, const std::string&);
+
+}  // namespace sem

@@ -1,0 +1,133 @@
+#include "sem/scene/monitor.h"
+
+namespace sem {
+
+using Eigen::VectorXd;
+
+namespace {
+
+std::string axis(int a) { return std::string(1, "xyz"[a]); }
+
+// Columns of a probe, with the units.
+template <int Dim>
+std::vector<std::string> columns_of(const Probe<Dim>& probe) {
+  std::vector<std::string> columns;
+  if (probe.kind == ProbeKind::stress) {
+    for (int i = 0; i < Dim; ++i)
+      for (int j = i; j < Dim; ++j) columns.push_back(probe.name + "_s" + axis(i) + axis(j) + "_Pa");
+  } else {
+    const char* unit = probe.kind == ProbeKind::reaction ? "_N" : "_m";
+    for (int a = 0; a < Dim; ++a) columns.push_back(probe.name + "_" + axis(a) + unit);
+  }
+  return columns;
+}
+
+// F at the only point of a map.
+template <int Dim>
+Mat<Dim> deformation_gradient(const Map<Dim>& map, const Eigen::Map<const Points<Dim>>& nodes) {
+  const auto& block = map.blocks[0];
+  Mat<Dim> F;
+  for (int b = 0; b < Dim; ++b)
+    F.col(b) = nodes(Eigen::all, block.columns) * block.gradient[b].row(0).transpose();
+  return F;
+}
+
+}  // namespace
+
+template <int Dim>
+Monitor<Dim>::Monitor(const Scene<Dim>& scene, const Model<Dim>& model) : scene_(scene), model_(model) {
+  const auto& d = model.discretization;
+  for (const auto& probe : scene.probes) {
+    const auto columns = columns_of(probe);
+    probe_columns_.insert(probe_columns_.end(), columns.begin(), columns.end());
+    const bool at_point = probe.kind != ProbeKind::reaction;
+    probe_maps_.push_back(at_point ? map_at<Dim>(d, probe.at, probe.kind == ProbeKind::stress)
+                                   : Map<Dim>());
+    int nearest = 0;
+    if (at_point) (d.quadrature.position.colwise() - probe.at).colwise().squaredNorm().minCoeff(&nearest);
+    probe_material_.push_back(model.materials.of_point[nearest]);
+  }
+  const bool massless = model.total_mass() == 0;
+  const VectorXd share = massless ? d.quadrature.weight : model.point_mass;
+  centroid_ = VectorXd::Zero(d.boundary.n_controls());
+  for (const auto& block : d.interior.blocks)
+    centroid_(block.columns) += block.value.transpose() * share(block.points) / share.sum();
+  boundary_measure_ = d.samples.weight.sum();
+}
+
+template <int Dim>
+std::vector<std::string> Monitor<Dim>::columns() const {
+  std::vector<std::string> columns = {"step",     "time_s",     "kinetic_J", "elastic_J", "stability_J",
+                                      "load_J",   "total_J",    "iterations", "residual", "substeps"};
+  for (int a = 0; a < Dim; ++a) columns.push_back("centroid_" + axis(a) + "_m");
+  for (int a = 0; a < Dim; ++a) columns.push_back("momentum_" + axis(a) + "_kg_m_s");
+  for (int a = 3 - DimTraits<Dim>::n_rotations; a < 3; ++a)
+    columns.push_back("angular_momentum_" + axis(a) + "_kg_m2_s");
+  columns.push_back("boundary_mismatch");
+  columns.insert(columns.end(), probe_columns_.begin(), probe_columns_.end());
+  return columns;
+}
+
+template <int Dim>
+std::vector<double> Monitor<Dim>::probes(const State& state, const VectorXd& acceleration) const {
+  const int n = model_.discretization.boundary.n_controls();
+  const Eigen::Map<const Points<Dim>> nodes(state.z.data(), Dim, n);
+  VectorXd reactions;
+  std::vector<double> values;
+  for (size_t i = 0; i < scene_.probes.size(); ++i) {
+    const auto& probe = scene_.probes[i];
+    if (probe.kind == ProbeKind::displacement) {
+      const Vec<Dim> u = evaluate(probe_maps_[i], state.z).col(0) - probe.at;
+      values.insert(values.end(), u.begin(), u.end());
+    } else if (probe.kind == ProbeKind::stress) {
+      const Mat<Dim> stress = cauchy_stress<Dim>(model_.materials.materials[probe_material_[i]],
+                                                 deformation_gradient<Dim>(probe_maps_[i], nodes));
+      for (int a = 0; a < Dim; ++a)
+        for (int b = a; b < Dim; ++b) values.push_back(stress(a, b));
+    } else {
+      if (reactions.size() == 0) reactions = reaction(model_.system, state.z, acceleration);
+      Vec<Dim> sum = Vec<Dim>::Zero();
+      for (const int entry : model_.pinned[probe.pin]) sum[entry % Dim] += reactions[entry];
+      values.insert(values.end(), sum.begin(), sum.end());
+    }
+  }
+  return values;
+}
+
+template <int Dim>
+double Monitor<Dim>::boundary_mismatch(const State& state) const {
+  const auto& boundary = model_.discretization.boundary;
+  const Eigen::Map<const Points<Dim>> nodes(state.z.data(), Dim, boundary.n_controls());
+  const double integral = (nodes * model_.stability).cwiseProduct(nodes).sum();
+  return std::sqrt(std::max(0.0, integral) / boundary_measure_) / boundary.box.diagonal();
+}
+
+template <int Dim>
+std::vector<double> Monitor<Dim>::row(const State& state, const VectorXd& acceleration, int iterations,
+                                      double residual, int n_substeps) const {
+  const int n = model_.discretization.boundary.n_controls();
+  const Eigen::Map<const Points<Dim>> nodes(state.z.data(), Dim, n), rates(state.v.data(), Dim, n);
+  const Points<Dim> momenta = rates * model_.mass;
+  const double kinetic = rates.cwiseProduct(momenta).sum() / 2;
+  const double elastic = model_.energy->elastic_energy(state.z);
+  const double stability = model_.energy->stability_energy(state.z);
+  const double load = -model_.system.load.dot(state.z);
+  std::vector<double> row = {double(state.step), state.time, kinetic, elastic, stability, load,
+                             kinetic + elastic + stability + load, double(iterations), residual,
+                             double(n_substeps)};
+  const Vec<Dim> centroid = nodes * centroid_, momentum = momenta.rowwise().sum();
+  row.insert(row.end(), centroid.begin(), centroid.end());
+  row.insert(row.end(), momentum.begin(), momentum.end());
+  auto angular = DimTraits<Dim>::cross(Vec<Dim>::Zero(), Vec<Dim>::Zero());
+  for (int j = 0; j < n; ++j) angular += DimTraits<Dim>::cross(nodes.col(j), momenta.col(j));
+  row.insert(row.end(), angular.begin(), angular.end());
+  row.push_back(boundary_mismatch(state));
+  const auto values = probes(state, acceleration);
+  row.insert(row.end(), values.begin(), values.end());
+  return row;
+}
+
+template class Monitor<2>;
+template class Monitor<3>;
+
+}  // namespace sem

@@ -1,0 +1,112 @@
+#pragma once
+// A scene: solids, method, loads, pins, probes and one analysis. Plain data,
+// filled from JSON (read_scene.h) or in code.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sem/mechanics/material.h"
+#include "sem/method/discretization.h"
+#include "sem/solve/integrators.h"
+
+namespace sem {
+
+template <int Dim>
+struct ScenePart {
+  std::string name;  ///< "left.1"; the text before the dot is the part's group
+  Nurbs<Dim - 1, Dim> shape;
+  std::optional<Material> material;  ///< in place of the solid's, where this part's weight is the largest
+};
+
+template <int Dim>
+struct SceneSolid {
+  std::string name;
+  Material material;
+  std::vector<ScenePart<Dim>> parts;
+};
+
+/// Which parts or control points: all that match every criterion given.
+template <int Dim>
+struct Selector {
+  std::string part;               ///< part or group name, "solid/part" to tell solids apart; empty: any
+  std::optional<Box<Dim>> box;    ///< control points (pins) or boundary points (loads) at rest in the box
+  std::vector<int> control_points;  ///< indices within the part (pins only); empty: any
+};
+
+template <int Dim>
+struct Pin {
+  Selector<Dim> where;
+  std::array<bool, Dim> axes;                  ///< components held
+  Vec<Dim> displacement = Vec<Dim>::Zero();    ///< m, prescribed (static analysis only)
+};
+
+/// Dead loads; 2D: per unit thickness.
+template <int Dim>
+struct PointLoad {
+  Vec<Dim> at, force;  ///< m, N: on the map at a rest point
+};
+template <int Dim>
+struct BoundaryLoad {
+  Selector<Dim> where;
+  Vec<Dim> traction = Vec<Dim>::Zero();  ///< N per m (2D) or m^2
+  double pressure = 0;                   ///< Pa, pushes against the outward rest normal
+};
+template <int Dim>
+struct BodyLoad {
+  std::string solid;  ///< empty: all
+  Vec<Dim> force;     ///< N/m^3
+};
+
+enum class ProbeKind { displacement, stress, reaction };
+template <int Dim>
+struct Probe {
+  std::string name;
+  ProbeKind kind = ProbeKind::displacement;
+  Vec<Dim> at = Vec<Dim>::Zero();  ///< rest point (displacement, Cauchy stress)
+  int pin = 0;                     ///< index into pins (reaction: force on the body by the pin, N)
+};
+
+enum class AnalysisKind { statics, dynamics, modes };
+struct Analysis {
+  AnalysisKind kind = AnalysisKind::dynamics;
+  // dynamics
+  Integrator integrator = Integrator::linearly_implicit_euler;
+  double time_step = 0.01;  ///< s
+  double duration = 1;      ///< s
+  // statics
+  int load_steps = 1;
+  int max_iterations = 50;
+  double tolerance = 1e-9;  ///< relative residual
+  // modes
+  int n_modes = 6;
+};
+
+struct OutputOptions {
+  double frame_rate = 30;         ///< frames per second of simulated time; 0: none
+  int width = 800, height = 600;  ///< pixels
+  bool error_estimate = true;     ///< repeats the run with varied settings (summary.json, accuracy)
+  double checkpoint_interval = 1; ///< simulated seconds between checkpoints; 0: only at the end
+};
+
+template <int Dim>
+struct Scene {
+  std::string name, description;
+  std::vector<SceneSolid<Dim>> solids;
+  MethodOptions method;
+  double stability_stiffness = 0;  ///< gamma, Pa/m; 0: E of the first solid over the model's size
+  double kinetic_length = 0;       ///< l of the kinetic stability term, m; 0: off
+  Vec<Dim> gravity = Vec<Dim>::Zero();  ///< m/s^2
+  std::vector<PointLoad<Dim>> point_loads;
+  std::vector<BoundaryLoad<Dim>> boundary_loads;
+  std::vector<BodyLoad<Dim>> body_loads;
+  std::vector<Pin<Dim>> pins;
+  Vec<Dim> velocity = Vec<Dim>::Zero();  ///< m/s, initial
+  double angular_velocity = 0;           ///< rad/s, initial, about the centroid (2D; about z in 3D)
+  std::vector<Probe<Dim>> probes;
+  Analysis analysis;
+  OutputOptions output;
+};
+
+}  // namespace sem

@@ -1,0 +1,62 @@
+#include "sem/solve/cholesky.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+namespace sem {
+
+namespace {
+double zero_level(Eigen::Index n) { return 8 * double(n) * std::numeric_limits<double>::epsilon(); }
+}  // namespace
+
+bool Cholesky::compute(const Eigen::MatrixXd& A) {
+  const Eigen::Index n = A.rows();
+  ok_ = false;
+  factor_.resize(n, n);
+  scale_.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!(A(i, i) > 0) || !std::isfinite(A(i, i))) return false;
+    scale_(i) = 1 / std::sqrt(A(i, i));
+  }
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = j; i < n; ++i) factor_(i, j) = A(i, j) * scale_(i) * scale_(j);
+  Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(factor_);  // in place
+  if (llt.info() != Eigen::Success) return false;
+  for (Eigen::Index i = 0; i < n; ++i)  // written so that NaN fails
+    if (!(factor_(i, i) * factor_(i, i) > zero_level(n))) return false;
+  return ok_ = true;
+}
+
+void Cholesky::solve_in_place(Eigen::VectorXd& b) const {
+  b.array() *= scale_.array();
+  factor_.triangularView<Eigen::Lower>().solveInPlace(b);
+  factor_.triangularView<Eigen::Lower>().transpose().solveInPlace(b);
+  b.array() *= scale_.array();
+}
+
+double Cholesky::condition_estimate() const {
+  if (!ok_) return std::numeric_limits<double>::infinity();
+  if (factor_.rows() == 0) return 1;
+  const double ratio = factor_.diagonal().maxCoeff() / factor_.diagonal().minCoeff();
+  return ratio * ratio;
+}
+
+bool is_singular(const Eigen::MatrixXd& A) {
+  if (A.rows() == 0) return false;
+  const Eigen::VectorXd diagonal = A.diagonal().cwiseAbs();
+  // A zero on the diagonal of an indefinite matrix is no zero eigenvalue: scale by the row then.
+  Eigen::VectorXd scale(A.rows());
+  for (Eigen::Index i = 0; i < A.rows(); ++i) {
+    const double size = std::max(diagonal(i), zero_level(A.rows()) * A.row(i).norm());
+    if (!(size > 0)) return true;
+    scale(i) = 1 / std::sqrt(size);
+  }
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled, Eigen::EigenvaluesOnly);
+  const auto values = eigen.eigenvalues().cwiseAbs().eval();
+  return values.minCoeff() <= zero_level(A.rows()) * values.maxCoeff();
+}
+
+}  // namespace sem

@@ -1,0 +1,39 @@
+#pragma once
+// Cholesky factorisation that tells a singular matrix from a regular one.
+
+#include <Eigen/Core>
+
+namespace sem {
+
+/// A = S L L^T S with S = sqrt(diag A): scaling makes the pivots of L, in
+/// (0, 1], independent of the units of the unknowns. Reuses its storage; Eigen's
+/// blocked kernels may take workspace of their own from the heap if A has more
+/// than some 500 rows.
+class Cholesky {
+ public:
+  /// Reserves room for n by n.
+  explicit Cholesky(int n = 0) : factor_(n, n), scale_(n) {}
+
+  /// Factorises the symmetric A (lower triangle read). False, and no factor,
+  /// unless A is finite and positive definite with every squared pivot above 8 n eps.
+  bool compute(const Eigen::MatrixXd& A);
+
+  /// b := A^-1 b.
+  void solve_in_place(Eigen::VectorXd& b) const;
+
+  /// (largest pivot / smallest pivot)^2 of L: a cheap lower bound of the
+  /// condition number of the scaled A; infinity without a factor.
+  double condition_estimate() const;
+
+ private:
+  Eigen::MatrixXd factor_;
+  Eigen::VectorXd scale_;  // 1 / sqrt(A_ii)
+  bool ok_ = false;
+};
+
+/// True if the symmetric A, scaled to a unit diagonal, has an eigenvalue that is
+/// zero to rounding (or a diagonal entry of zero with all its row): a motion
+/// without stiffness. Computes all eigenvalues: for diagnosis only.
+bool is_singular(const Eigen::MatrixXd& A);
+
+}  // namespace sem

@@ -1,0 +1,218 @@
+#include "sem/solve/integrators.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "sem/base/error.h"
+
+namespace sem {
+
+namespace {
+constexpr Integrator all_integrators[] = {
+    Integrator::linearly_implicit_euler, Integrator::implicit_euler, Integrator::implicit_midpoint};
+}
+
+const char* name(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::linearly_implicit_euler:
+      return "linearly_implicit_euler";
+    case Integrator::implicit_euler:
+      return "implicit_euler";
+    case Integrator::implicit_midpoint:
+      return "implicit_midpoint";
+  }
+  return "";
+}
+
+Integrator integrator(const std::string& text, const std::string& file, const std::string& field) {
+  std::string allowed;
+  for (const Integrator candidate : all_integrators) {
+    if (text == name(candidate)) return candidate;
+    allowed += (allowed.empty() ? "" : ", ") + std::string(name(candidate));
+  }
+  throw InputError(file, field, "'" + text + "'", allowed);
+}
+
+TimeStepper::TimeStepper(const System& system, double dt, Integrator integrator,
+                         const StepOptions& options)
+    : system_(system),
+      dt_(dt),
+      integrator_(integrator),
+      options_(options),
+      theta_(integrator == Integrator::implicit_midpoint ? 0.5 : 1),
+      quadratic_(system.potential->quadratic()),
+      newton_(system),
+      cholesky_(int(system.free.size())) {
+  assert(dt > 0);
+  const int n = system.size(), n_free = int(system.free.size());
+  stiffness_.resize(n, n);
+  matrix_.resize(n_free, n_free);
+  for (auto* v : {&rest_gradient_, &z_, &v_, &gradient_, &work_, &increment_, &drift_, &zero_})
+    v->setZero(n);
+  for (auto* v : {&rhs_, &dv_, &free_work_}) v->setZero(n_free);
+  if (!quadratic_) return;
+  rest_energy_ = system.potential->energy(system.rest);
+  system.potential->gradient(system.rest, rest_gradient_);
+  system.potential->hessian(system.rest, false, stiffness_);
+  ++counters_.n_hessians;
+}
+
+Counters TimeStepper::counters() const {
+  Counters total = counters_;
+  const Counters& newton = newton_.counters();
+  total.n_factorizations += newton.n_factorizations;
+  total.n_hessians += newton.n_hessians;
+  total.n_psd_projections += newton.n_psd_projections;
+  total.n_shifts += newton.n_shifts;
+  return total;
+}
+
+double TimeStepper::condition_estimate() const {
+  return uses_newton() ? newton_.condition_estimate() : cholesky_.condition_estimate();
+}
+
+bool TimeStepper::uses_newton() const {
+  return !quadratic_ && integrator_ != Integrator::linearly_implicit_euler;
+}
+
+StepReport TimeStepper::step(State& state) {
+  StepReport report;
+  end_energy_ = potential_energy(state.z);
+  if (!std::isfinite(end_energy_)) {
+    report.status = Status::not_finite;
+    set_energies(state, end_energy_, report.energies);
+    return report;
+  }
+  const double start_energy = end_energy_;
+  for (int halvings = 0; halvings <= options_.max_halvings; ++halvings) {
+    report.n_substeps = 1 << halvings;
+    report.residual = 0;
+    z_ = state.z;
+    v_.setZero();
+    for (const int i : system_.free) v_(i) = state.v(i);
+    report.status = Status::converged;
+    for (int k = 0; k < report.n_substeps && report.status == Status::converged; ++k)
+      report.status = advance(dt_ / report.n_substeps, report);
+    if (report.status == Status::converged) {
+      state.z.swap(z_);
+      state.v.swap(v_);
+      state.time += dt_;
+      ++state.step;
+      set_energies(state, end_energy_, report.energies);
+      return report;
+    }
+  }
+  set_energies(state, start_energy, report.energies);
+  return report;
+}
+
+// One substep of z_, v_.
+Status TimeStepper::advance(double dt, StepReport& report) {
+  const Status status = uses_newton() ? advance_newton(dt, report) : advance_linear(dt, report);
+  if (status != Status::converged) return status;
+  if (!z_.allFinite() || !v_.allFinite()) return Status::not_finite;
+  end_energy_ = potential_energy(z_);
+  return std::isfinite(end_energy_) ? Status::converged : Status::not_finite;
+}
+
+// One linear system: exact for a quadratic potential, with theta = 1 or 1/2,
+//   (M + theta^2 dt^2 K) dv = -dt (grad V(z) - f + theta dt K v),
+//   z += dt (v + theta dv), v += dv.
+Status TimeStepper::advance_linear(double dt, StepReport& report) {
+  const Status status = factorize(dt);
+  if (status != Status::converged) return status;
+  ++report.iterations;
+  set_gradient(z_);
+  work_.noalias() = stiffness_ * v_;
+  const auto& free = system_.free;
+  for (size_t a = 0; a < free.size(); ++a) {
+    const int i = free[a];
+    rhs_(a) = -dt * (gradient_(i) - system_.load(i) + theta_ * dt * work_(i));
+  }
+  dv_ = rhs_;
+  cholesky_.solve_in_place(dv_);
+  free_work_.noalias() = matrix_ * dv_;
+  const double size = rhs_.norm();
+  if (size > 0) report.residual = std::max(report.residual, (free_work_ - rhs_).norm() / size);
+  for (size_t a = 0; a < free.size(); ++a) {
+    z_(free[a]) += dt * (v_(free[a]) + theta_ * dv_(a));
+    v_(free[a]) += dv_(a);
+  }
+  return Status::converged;
+}
+
+// Newton on the increment u to the point where the force is taken: z0 + u = z1
+// (Euler) or the midpoint; u = theta dt v_mean, so
+//   grad V(z0 + u) - f + (u - theta dt v0) M / (theta dt)^2 = 0.
+Status TimeStepper::advance_newton(double dt, StepReport& report) {
+  const double h = theta_ * dt;
+  drift_ = h * v_;
+  const NewtonReport newton =
+      newton_.minimize({z_, system_.load, 1 / (h * h), drift_, zero_},
+                       {options_.tolerance, options_.max_iterations}, increment_);
+  report.iterations += newton.iterations;
+  report.residual = std::max(report.residual, newton.residual);
+  if (newton.status != Status::converged) return newton.status;
+  z_ += increment_ / theta_;
+  v_ += (increment_ / h - v_) / theta_;
+  return Status::converged;
+}
+
+// The factor of M + theta^2 dt^2 K(z_): kept while K is constant and dt the same.
+Status TimeStepper::factorize(double dt) {
+  if (quadratic_ && factorized_dt_ == dt) return Status::converged;
+  factorized_dt_ = 0;
+  if (!quadratic_) set_stiffness(false);
+  if (!factorize_matrix(dt)) {
+    if (!matrix_.allFinite()) return Status::not_finite;
+    if (quadratic_) return Status::singular;
+    set_stiffness(true);
+    if (!factorize_matrix(dt)) return Status::singular;
+  }
+  factorized_dt_ = dt;
+  return Status::converged;
+}
+
+bool TimeStepper::factorize_matrix(double dt) {
+  const double weight = theta_ * theta_ * dt * dt;
+  const auto& free = system_.free;
+  for (size_t b = 0; b < free.size(); ++b)
+    for (size_t a = 0; a < free.size(); ++a)
+      matrix_(a, b) = system_.mass(free[a], free[b]) + weight * stiffness_(free[a], free[b]);
+  ++counters_.n_factorizations;
+  return cholesky_.compute(matrix_);
+}
+
+void TimeStepper::set_stiffness(bool project_psd) {
+  system_.potential->hessian(z_, project_psd, stiffness_);
+  ++counters_.n_hessians;
+  if (project_psd) ++counters_.n_psd_projections;
+}
+
+void TimeStepper::set_gradient(const Eigen::VectorXd& z) {
+  if (!quadratic_) {
+    system_.potential->gradient(z, gradient_);
+    return;
+  }
+  increment_ = z - system_.rest;
+  gradient_.noalias() = stiffness_ * increment_;
+  gradient_ += rest_gradient_;
+}
+
+double TimeStepper::potential_energy(const Eigen::VectorXd& z) {
+  if (!quadratic_) return system_.potential->energy(z);
+  increment_ = z - system_.rest;
+  work_.noalias() = stiffness_ * increment_;
+  return rest_energy_ + rest_gradient_.dot(increment_) + increment_.dot(work_) / 2;
+}
+
+void TimeStepper::set_energies(const State& state, double potential, Energies& energies) {
+  work_.noalias() = system_.mass * state.v;
+  energies.kinetic = state.v.dot(work_) / 2;
+  energies.potential = potential;
+  energies.load = -system_.load.dot(state.z);
+  energies.total = energies.kinetic + energies.potential + energies.load;
+}
+
+}  // namespace sem

@@ -1,0 +1,91 @@
+#include "sem/solve/modes.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "sem/solve/cholesky.h"
+
+namespace sem {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+Eigen::MatrixXd free_block(const Eigen::MatrixXd& A, const std::vector<int>& free) {
+  return A(free, free);
+}
+
+// The smallest of a few shifts s that makes K + s M well positive definite; s < 0 if none does.
+// None is tiny: rigid motions with mu = 1/s must not drown the others.
+double find_shift(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M) {
+  const double ratio = M.trace() > 0 ? std::abs(K.trace()) / M.trace() : 0;
+  Cholesky cholesky(int(K.rows()));
+  for (const double share : {0., 1e-4, 1e-2, 1., 100., 1e4})
+    if (cholesky.compute(K + share * ratio * M) && cholesky.condition_estimate() < 1e10)
+      return share * ratio;
+  return -1;
+}
+
+// Rayleigh quotient: free of the cancellation in 1/mu - s.
+double signed_omega(const Eigen::VectorXd& phi, const Eigen::MatrixXd& K,
+                    const Eigen::MatrixXd& M) {
+  const double squared = phi.dot(K * phi) / phi.dot(M * phi);
+  return std::copysign(std::sqrt(std::abs(squared)), squared);
+}
+
+}  // namespace
+
+Modes vibration_modes(const System& system, const Eigen::VectorXd& z, int n_modes) {
+  const int n = system.size(), n_free = int(system.free.size());
+  Modes modes;
+  modes.shapes.resize(n, 0);
+  if (n_free == 0) return modes;
+  Eigen::MatrixXd hessian(n, n);
+  system.potential->hessian(z, false, hessian);
+  const Eigen::MatrixXd K = free_block(hessian, system.free);
+  const Eigen::MatrixXd M = free_block(system.mass, system.free);
+  if (!K.allFinite() || !M.allFinite()) {
+    modes.status = Status::not_finite;
+    return modes;
+  }
+  const double shift = find_shift(K, M);
+  if (shift < 0) {
+    modes.status = Status::singular;
+    return modes;
+  }
+  // mu descending = omega ascending; mu = 0 without mass.
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(M, K + shift * M);
+  const Eigen::VectorXd mu = eigen.eigenvalues().reverse();
+  const double no_mass = 8 * n_free * epsilon * std::max(mu(0), 0.);
+  const int n_massive = int((mu.array() > no_mass).count());
+  modes.n_massless = n_free - n_massive;
+
+  const int n_found = std::clamp(n_modes, 0, n_massive);
+  std::vector<std::pair<double, int>> order;
+  Eigen::MatrixXd shapes = eigen.eigenvectors().rowwise().reverse().leftCols(n_found);
+  for (int k = 0; k < n_found; ++k) order.push_back({signed_omega(shapes.col(k), K, M), k});
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+
+  modes.omega.resize(n_found);
+  modes.residuals.resize(n_found);
+  modes.shapes.setZero(n, n_found);
+  for (int k = 0; k < n_found; ++k) {
+    const auto [omega, column] = order[k];
+    Eigen::VectorXd phi = shapes.col(column);
+    Eigen::Index largest;
+    phi.cwiseAbs().maxCoeff(&largest);
+    phi /= std::copysign(std::sqrt(phi.dot(M * phi)), phi(largest));
+    const double squared = omega * std::abs(omega);
+    modes.omega(k) = omega;
+    modes.residuals(k) = (K * phi - squared * (M * phi)).norm() /
+                         ((K.norm() + std::abs(squared) * M.norm()) * phi.norm());
+    for (int a = 0; a < n_free; ++a) modes.shapes(system.free[a], k) = phi(a);
+  }
+  return modes;
+}
+
+}  // namespace sem

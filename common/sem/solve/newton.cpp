@@ -1,0 +1,202 @@
+#include "sem/solve/newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sem {
+
+namespace {
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double armijo = 1e-4;     // share of the predicted decrease that is asked for
+constexpr int max_backtracks = 40;  // 2^-40: the direction is useless
+constexpr double energy_noise =
+    1e-9;  // a predicted decrease below this share of its terms may be rounding
+constexpr double rounding_margin = 32;  // |r| below this many roundings of the forces is zero
+constexpr double first_shift = 1e-6, last_shift = 1;  // shares of the diagonal
+constexpr double smallest_shift = 1e-300;             // where the diagonal is all zero
+}  // namespace
+
+Newton::Newton(const System& system) : system_(system), cholesky_(int(system.free.size())) {
+  const int n = system.size(), n_free = int(system.free.size());
+  hessian_.resize(n, n);
+  matrix_.resize(n_free, n_free);
+  for (auto* v : {&z_, &gradient_, &inertial_, &residual_, &step_, &trial_, &mass_step_, &work_})
+    v->setZero(n);
+  free_work_.setZero(n_free);
+}
+
+// Energy, gradient and residual at u; +infinity (and no gradient) if inadmissible.
+double Newton::evaluate(const IncrementProblem& problem, const Eigen::VectorXd& u) {
+  z_ = problem.base + u;
+  const double energy = system_.potential->energy(z_);
+  if (!std::isfinite(energy)) return std::numeric_limits<double>::infinity();
+  system_.potential->gradient(z_, gradient_);
+  inertial_.setZero();
+  if (problem.inertia > 0) {
+    work_ = u - problem.drift;
+    inertial_.noalias() = problem.inertia * (system_.mass * work_);
+  }
+  residual_.setZero();
+  for (const int i : system_.free) residual_(i) = gradient_(i) - problem.load(i) + inertial_(i);
+  return energy;
+}
+
+// matrix_ = free block of H(z_) + inertia M.
+void Newton::assemble(double inertia, bool project_psd) {
+  system_.potential->hessian(z_, project_psd, hessian_);
+  ++counters_.n_hessians;
+  if (project_psd) ++counters_.n_psd_projections;
+  const auto& free = system_.free;
+  for (size_t b = 0; b < free.size(); ++b)
+    for (size_t a = 0; a < free.size(); ++a)
+      matrix_(a, b) = hessian_(free[a], free[b]) + inertia * system_.mass(free[a], free[b]);
+}
+
+bool Newton::factorize() {
+  ++counters_.n_factorizations;
+  return cholesky_.compute(matrix_);
+}
+
+void Newton::add_shift(double share) {
+  const double least = std::max(1e-3 * matrix_.diagonal().mean(), smallest_shift);
+  matrix_.diagonal().array() += share * matrix_.diagonal().array().max(least);
+  ++counters_.n_shifts;
+}
+
+// Leaves a factor of a positive definite matrix, and its potential part in hessian_.
+Status Newton::direction(double inertia) {
+  assemble(inertia, false);
+  if (factorize()) return Status::converged;
+  if (!matrix_.allFinite()) return Status::not_finite;
+  assemble(inertia, true);
+  if (factorize()) return Status::converged;
+  // Singular: by the projection alone (a shift helps), or for want of stiffness?
+  assemble(inertia, false);
+  if (is_singular(matrix_)) return Status::singular;
+  assemble(inertia, true);
+  if (!matrix_.allFinite()) return Status::not_finite;
+  for (double share = first_shift; share <= last_shift; share *= 100) {
+    add_shift(share);
+    if (factorize()) return Status::converged;
+  }
+  return Status::singular;
+}
+
+// The rounding error to expect in the residual: of forces that are sums of H_ij z_j.
+double Newton::rounding_level() const {
+  double sum = 0;
+  for (const int i : system_.free) {
+    double row = std::abs(inertial_(i));
+    for (int j = 0; j < hessian_.cols(); ++j) row += std::abs(hessian_(j, i) * z_(j));
+    sum += row * row;
+  }
+  return epsilon * std::sqrt(sum);
+}
+
+// Moves the pinned entries to their prescribed values and the free ones along
+// the tangent: H_ff du = -(r + H_fp du_p). Judged by its energy being finite.
+bool Newton::predict(const IncrementProblem& problem, Eigen::VectorXd& u) {
+  step_ = problem.prescribed - u;
+  for (const int i : system_.free) step_(i) = 0;
+  work_.noalias() = hessian_ * step_;
+  for (size_t a = 0; a < system_.free.size(); ++a)
+    free_work_(a) = -residual_(system_.free[a]) - work_(system_.free[a]);
+  cholesky_.solve_in_place(free_work_);
+  for (size_t a = 0; a < system_.free.size(); ++a) step_(system_.free[a]) = free_work_(a);
+  trial_ = u + step_;
+  energy_ = evaluate(problem, trial_);
+  if (!std::isfinite(energy_) || !residual_.allFinite()) return false;
+  u.swap(trial_);
+  return true;
+}
+
+// Backtracks along the Newton direction from u, where energy_ and residual_ are
+// known; leaves both at the new u.
+bool Newton::line_search(const IncrementProblem& problem, Eigen::VectorXd& u) {
+  for (size_t a = 0; a < system_.free.size(); ++a) free_work_(a) = -residual_(system_.free[a]);
+  cholesky_.solve_in_place(free_work_);
+  step_.setZero();
+  for (size_t a = 0; a < system_.free.size(); ++a) step_(system_.free[a]) = free_work_(a);
+
+  const double slope = residual_.dot(step_), old_norm = residual_.norm(), old_energy = energy_;
+  // The part of the objective besides V, along the line: linear alpha + curvature alpha^2 / 2.
+  const double linear = inertial_.dot(step_) - problem.load.dot(step_);
+  double curvature = 0;
+  if (problem.inertia > 0) {
+    mass_step_.noalias() = system_.mass * step_;
+    curvature = problem.inertia * step_.dot(mass_step_);
+  }
+  if (!(slope < 0)) return false;
+  double alpha = 1;
+  for (int k = 0; k < max_backtracks; ++k, alpha /= 2) {
+    trial_ = u + alpha * step_;
+    if (!trial_.allFinite()) continue;
+    energy_ = evaluate(problem, trial_);
+    if (!std::isfinite(energy_) || !residual_.allFinite()) continue;
+    const double change = energy_ - old_energy + alpha * (linear + alpha * curvature / 2);
+    const double terms =
+        std::max(std::abs(energy_), std::abs(old_energy)) + std::abs(alpha * linear);
+    const bool in_noise = -alpha * slope <= energy_noise * terms;
+    if (change <= armijo * alpha * slope || (in_noise && residual_.norm() < old_norm)) {
+      u.swap(trial_);
+      return true;
+    }
+  }
+  return false;
+}
+
+double Newton::reference_force(const IncrementProblem& problem) {
+  work_.noalias() = problem.inertia * (system_.mass * problem.drift);
+  double load = 0, drift = 0;
+  for (const int i : system_.free) {
+    load += problem.load(i) * problem.load(i);
+    drift += work_(i) * work_(i);
+  }
+  return std::max({gradient_.norm(), std::sqrt(load), std::sqrt(drift)});
+}
+
+bool Newton::pins_move(const IncrementProblem& problem) {
+  step_ = problem.prescribed;
+  for (const int i : system_.free) step_(i) = 0;
+  return (step_.array() != 0).any();
+}
+
+NewtonReport Newton::minimize(const IncrementProblem& problem, const NewtonOptions& options,
+                              Eigen::VectorXd& u) {
+  NewtonReport report;
+  u.setZero();
+  energy_ = evaluate(problem, u);
+  if (!std::isfinite(energy_) || !residual_.allFinite()) {
+    report.status = Status::not_finite;
+    return report;
+  }
+  const double start_force = reference_force(problem);
+  bool moving = pins_move(problem);
+
+  for (;;) {
+    const double norm = residual_.norm();
+    report.reference_force = std::max(start_force, gradient_.norm());
+    report.residual = norm > 0 ? norm / report.reference_force : 0;
+    if (!moving && report.residual <= options.tolerance) break;
+    if (!moving && report.iterations > 0 && norm <= rounding_margin * rounding_level()) break;
+    if (report.iterations == options.max_iterations) {
+      report.status = Status::max_iterations;
+      break;
+    }
+    report.status = direction(problem.inertia);
+    if (report.status != Status::converged) break;
+    if (!moving && report.iterations == 0 && norm <= rounding_margin * rounding_level()) break;
+    ++report.iterations;
+    if (moving) {
+      moving = false;
+      if (!predict(problem, u)) report.status = Status::not_finite;
+    } else if (!line_search(problem, u)) {
+      report.status = Status::line_search_failed;
+    }
+    if (report.status != Status::converged) break;
+  }
+  return report;
+}
+
+}  // namespace sem
