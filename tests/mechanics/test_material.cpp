@@ -62,7 +62,7 @@ std::vector<Mat<Dim>> sample_gradients() {
 
 // Central differences, fourth order.
 template <class Function>
-auto derivative(const Function& f, double h) {
+std::invoke_result_t<Function, double> derivative(const Function& f, double h) {
   return ((f(-2 * h) - f(2 * h)) + 8 * (f(h) - f(-h))) / (12 * h);
 }
 

@@ -36,7 +36,8 @@ double sum(const std::vector<double>& values) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("basis: partition of unity, derivatives sum to zero", T, PlaneCurve, Surface, SpaceCurve) {
+TEST_CASE_TEMPLATE("basis: partition of unity, derivatives sum to zero", T, PlaneCurve, Surface,
+                   SpaceCurve) {
   std::mt19937 random(31);
   BasisValues<T::param_dim> basis;
   for (int trial = 0; trial < 300; ++trial) {
@@ -50,7 +51,8 @@ TEST_CASE_TEMPLATE("basis: partition of unity, derivatives sum to zero", T, Plan
   }
 }
 
-TEST_CASE_TEMPLATE("basis times control points is the point and its derivatives", T, PlaneCurve, Surface, SpaceCurve) {
+TEST_CASE_TEMPLATE("basis times control points is the point and its derivatives", T, PlaneCurve,
+                   Surface, SpaceCurve) {
   std::mt19937 random(32);
   BasisValues<T::param_dim> basis;
   for (int trial = 0; trial < 300; ++trial) {
@@ -73,7 +75,8 @@ TEST_CASE_TEMPLATE("basis times control points is the point and its derivatives"
   }
 }
 
-TEST_CASE_TEMPLATE("first and second derivatives match finite differences", T, PlaneCurve, Surface, SpaceCurve) {
+TEST_CASE_TEMPLATE("first and second derivatives match finite differences", T, PlaneCurve, Surface,
+                   SpaceCurve) {
   std::mt19937 random(33);
   for (int trial = 0; trial < 200; ++trial) {
     const auto nurbs = random_of<T>(random, trial);

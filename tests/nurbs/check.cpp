@@ -73,6 +73,6 @@ TEST_CASE("a surface names the axis of the knots that are wrong") {
   std::mt19937 random(52);
   auto surface = random_nurbs<2, 3>(random, 2, 3, true, false);
   surface.knots[1][4] = -100;
-  CHECK_THROWS_WITH_AS(check(surface, "s.json", "parts[0]"), doctest::Contains("parts[0].knots_v[4]"),
-                       InputError);
+  CHECK_THROWS_WITH_AS(check(surface, "s.json", "parts[0]"),
+                       doctest::Contains("parts[0].knots_v[4]"), InputError);
 }

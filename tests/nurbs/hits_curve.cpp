@@ -1,8 +1,7 @@
-#include "sem/nurbs/hits.h"
-
 #include <doctest/doctest.h>
 
 #include "sem/nurbs/basis.h"
+#include "sem/nurbs/hits.h"
 #include "sem/nurbs/refine.h"
 #include "shapes.h"
 
@@ -103,9 +102,8 @@ TEST_CASE("hits are sorted by t and limited to [t_min, t_max]") {
                          [](const auto& a, const auto& b) { return a.t < b.t; }));
     part.clear();
     append_hits<2>(prepare(curve), line, 0, 0.5, part);
-    const auto inside = std::count_if(all.begin(), all.end(), [](const auto& hit) {
-      return hit.t >= 0 && hit.t <= 0.5;
-    });
+    const auto inside = std::count_if(all.begin(), all.end(),
+                                      [](const auto& hit) { return hit.t >= 0 && hit.t <= 0.5; });
     CHECK(long(part.size()) == inside);
   }
 }

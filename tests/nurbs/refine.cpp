@@ -27,8 +27,8 @@ double largest_difference(std::mt19937& random, const Nurbs<ParamDim, Dim>& a,
 template <int ParamDim, int Dim>
 void check_refinement(std::mt19937& random, int trial) {
   const int degree = 1 + trial % 5;
-  const auto nurbs = random_nurbs<ParamDim, Dim>(random, degree, 1 + random() % 4, random() % 3 != 0,
-                                                 random() % 2, random() % 3 == 0);
+  const auto nurbs = random_nurbs<ParamDim, Dim>(
+      random, degree, 1 + random() % 4, random() % 3 != 0, random() % 2, random() % 3 == 0);
   const int axis = random() % ParamDim;
   const Interval range = domain(nurbs, axis);
   const double u = uniform(random, range.lower, range.upper);
@@ -68,8 +68,8 @@ void check_refinement(std::mt19937& random, int trial) {
 template <int ParamDim, int Dim>
 void check_pieces(std::mt19937& random, int trial) {
   const int degree = 1 + trial % 5;
-  const auto nurbs = random_nurbs<ParamDim, Dim>(random, degree, 1 + random() % 4, random() % 3 != 0,
-                                                 random() % 2, random() % 3 == 0);
+  const auto nurbs = random_nurbs<ParamDim, Dim>(
+      random, degree, 1 + random() % 4, random() % 3 != 0, random() % 2, random() % 3 == 0);
   const auto prepared = prepare(nurbs);
   size_t n_pieces = 1;
   for (int a = 0; a < ParamDim; ++a) n_pieces *= spans(nurbs, a).size();
@@ -107,7 +107,8 @@ TEST_CASE("Bezier pieces agree with the NURBS and lie in their boxes") {
   for (int trial = 0; trial < 60; ++trial) check_pieces<2, 3>(random, trial);
 }
 
-TEST_CASE("neighbouring pieces share end points, and clamped ends are control points, bit for bit") {
+TEST_CASE(
+    "neighbouring pieces share end points, and clamped ends are control points, bit for bit") {
   std::mt19937 random(44);
   for (int trial = 0; trial < 200; ++trial) {
     const auto curve = random_nurbs<1, 2>(random, 1 + trial % 6, 1 + random() % 5, true, true);

@@ -70,12 +70,15 @@ int triangulated_hits(const Nurbs<2, 3>& surface, const Line<3>& line, int n) {
   const Interval U = domain(surface, 0), V = domain(surface, 1);
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) {
-      const Param<2> u(U.lower + (U.upper - U.lower) * i / n, V.lower + (V.upper - V.lower) * j / n);
+      const Param<2> u(U.lower + (U.upper - U.lower) * i / n,
+                       V.lower + (V.upper - V.lower) * j / n);
       const Vec<3> X = point(surface, u) - line.origin;
       plane.push_back({a.dot(X), b.dot(X)});
     }
   const auto contains = [](const Vec<2>& p, const Vec<2>& q, const Vec<2>& r) {
-    const auto cross = [](const Vec<2>& x, const Vec<2>& y) { return x[0] * y[1] - x[1] * y[0] >= 0; };
+    const auto cross = [](const Vec<2>& x, const Vec<2>& y) {
+      return x[0] * y[1] - x[1] * y[0] >= 0;
+    };
     return cross(p, q) == cross(q, r) && cross(q, r) == cross(r, p);
   };
   int count = 0;
@@ -107,8 +110,14 @@ double brute_force_distance(const Nurbs<2, 3>& surface, const Vec<3>& X) {
     auto [d, s, t] = samples[k];
     for (double h = 1.0 / n; h > 1e-8;) {
       const double old = d;
-      for (const auto& [ds, dt] : {std::pair{h, 0.0}, {-h, 0.0}, {0.0, h}, {0.0, -h}, {h, h},
-                                   {h, -h}, {-h, h}, {-h, -h}}) {
+      for (const auto& [ds, dt] : {std::pair{h, 0.0},
+                                   {-h, 0.0},
+                                   {0.0, h},
+                                   {0.0, -h},
+                                   {h, h},
+                                   {h, -h},
+                                   {-h, h},
+                                   {-h, -h}}) {
         const double trial = distance(s + ds, t + dt);
         if (trial < d) {
           d = trial;
@@ -199,8 +208,12 @@ TEST_CASE("a ray through a box of six patches enters and leaves once") {
   std::mt19937 random(24);
   std::vector<PreparedNurbs<2, 3>> box;
   const auto corner = [](int k) { return Vec<3>(k & 1, (k >> 1) & 1, (k >> 2) & 1); };
-  for (const auto& [a, b, c, d] : {std::array{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 4, 5},
-                                   {2, 3, 6, 7}, {0, 2, 4, 6}, {1, 3, 5, 7}})
+  for (const auto& [a, b, c, d] : {std::array{0, 1, 2, 3},
+                                   {4, 5, 6, 7},
+                                   {0, 1, 4, 5},
+                                   {2, 3, 6, 7},
+                                   {0, 2, 4, 6},
+                                   {1, 3, 5, 7}})
     box.push_back(prepare(bilinear(corner(a), corner(b), corner(c), corner(d))));
   for (int trial = 0; trial < 200; ++trial) {
     const Vec<3> inside(uniform(random), uniform(random), uniform(random));

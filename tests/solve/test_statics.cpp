@@ -176,6 +176,22 @@ TEST_CASE("an indefinite start finds its way to a minimum") {
   }
 }
 
+TEST_CASE("where the projection leaves nothing of the Hessian a shift finds the way down") {
+  Scalar well;  // minima at -1 and 1, concave between +-1/sqrt(3)
+  well.V = [](double x) { return (x * x - 1) * (x * x - 1) / 4; };
+  well.dV = [](double x) { return x * (x * x - 1); };
+  well.ddV = [](double x) { return 3 * x * x - 1; };
+  for (const double start : {-0.3, 1e-8, 0.5}) {
+    System system = make_system(well, VectorXd::Constant(1, start));
+    State state = at_rest(system);
+    const StaticReport report = solve_static(system, state);
+    INFO("start ", start);
+    CHECK(report.status == Status::converged);
+    CHECK(std::abs(state.z(0)) == doctest::Approx(1).epsilon(1e-9));
+    CHECK(report.counters.n_shifts > 0);
+  }
+}
+
 TEST_CASE("rigid motions left free are reported as singular and the state is kept") {
   VectorXd rest;
   Springs<3> cluster = random_cluster<3>(6, rest, 5);

@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace sem {
 
@@ -53,6 +55,9 @@ struct DimTraits<2> {
   static constexpr const char* name = "2D";
   static constexpr const char* volume_name = "area";
   static constexpr char axis_name[] = "xy";
+  static std::vector<std::string> axes() { return {"x", "y"}; }
+  /// Tells the parameters of a part apart in names: a curve has one.
+  static constexpr const char* parameter_suffix[] = {""};
   /// Normal of the boundary times its line element, from dX/du: right of the
   /// direction of travel, so outward on a loop that runs anticlockwise.
   static Vec<2> area_normal(const Eigen::Matrix<double, 2, 1>& tangents) {
@@ -69,6 +74,8 @@ struct DimTraits<3> {
   static constexpr const char* name = "3D";
   static constexpr const char* volume_name = "volume";
   static constexpr char axis_name[] = "xyz";
+  static std::vector<std::string> axes() { return {"x", "y", "z"}; }
+  static constexpr const char* parameter_suffix[] = {"_u", "_v"};
   /// Normal of the boundary times its area element, from dX/du, dX/dv.
   static Vec<3> area_normal(const Eigen::Matrix<double, 3, 2>& tangents) {
     const Vec<3> du = tangents.col(0), dv = tangents.col(1);

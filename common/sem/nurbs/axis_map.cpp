@@ -12,8 +12,8 @@ int find_span(const std::vector<double>& knots, int degree, double u) {
   return k;
 }
 
-void append_polar_form(const std::vector<double>& knots, int degree, int k,
-                       const double* arguments, AxisMap& map) {
+void append_polar_form(const std::vector<double>& knots, int degree, int k, const double* arguments,
+                       AxisMap& map) {
   map.width = degree + 1;
   map.first.push_back(k - degree);
   map.coefficient.resize(map.coefficient.size() + degree + 1, 0.0);

@@ -25,8 +25,8 @@ int find_span(const std::vector<double>& knots, int degree, double u);
 /// (#degree): the control points of span k weighted by the de Boor scheme
 /// with a different parameter in each step (Ramshaw). Coefficients at a
 /// knot of full multiplicity are exactly 0 and 1.
-void append_polar_form(const std::vector<double>& knots, int degree, int k,
-                       const double* arguments, AxisMap& map);
+void append_polar_form(const std::vector<double>& knots, int degree, int k, const double* arguments,
+                       AxisMap& map);
 
 /// The map to a finer knot vector of the same degree (Oslo algorithm).
 AxisMap map_to_knots(const std::vector<double>& knots, int degree,

@@ -39,7 +39,7 @@ void evaluate_axis(const std::vector<double>& knots, int degree, double u, int o
   }
   out.first = k - degree;
   if (order == 0) return;
-  if (order >= 2) {  // derivatives of the functions of degree - 1
+  if (order >= 2) {                // derivatives of the functions of degree - 1
     double* slope = out.value[1];  // used as scratch
     for (int r = 0; r < degree - 1; ++r)
       slope[r] = (degree - 1) * lower2[r] / (after[r] - before[r - degree + 2]);
@@ -123,8 +123,8 @@ void divide(const double* W, int order, Value* value) {
   if (order < 2) return;
   for (int p = 0; p < n_second<ParamDim>; ++p) {
     const int a = orders.pair[p][0], b = orders.pair[p][1], m = 1 + ParamDim + p;
-    value[m] = (value[m] - value[1 + a] * W[1 + b] - value[1 + b] * W[1 + a] - value[0] * W[m]) *
-               inverse;
+    value[m] =
+        (value[m] - value[1 + a] * W[1 + b] - value[1 + b] * W[1 + a] - value[0] * W[m]) * inverse;
   }
 }
 
@@ -200,9 +200,9 @@ Derivatives<ParamDim, Dim> derivatives(const Nurbs<ParamDim, Dim>& nurbs,
   return result;
 }
 
-#define SEM_INSTANTIATE(P, D)                                                             \
+#define SEM_INSTANTIATE(P, D)                                                              \
   template void evaluate_basis(const Nurbs<P, D>&, const Param<P>&, int, BasisValues<P>&); \
-  template Vec<D> point(const Nurbs<P, D>&, const Param<P>&);                             \
+  template Vec<D> point(const Nurbs<P, D>&, const Param<P>&);                              \
   template Derivatives<P, D> derivatives(const Nurbs<P, D>&, const Param<P>&);
 SEM_INSTANTIATE(1, 2)
 SEM_INSTANTIATE(1, 3)

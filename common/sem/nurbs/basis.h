@@ -11,7 +11,7 @@ namespace sem {
 
 /// Number of second derivatives: uu (curve); uu, uv, vv (surface).
 template <int ParamDim>
-constexpr int n_second = ParamDim * (ParamDim + 1) / 2;
+constexpr int n_second = ParamDim*(ParamDim + 1) / 2;
 
 /// Basis values at one parameter. Position there = sum_k value[k] *
 /// control_points.col(column[k]); the same with `first` and `second` for
@@ -19,9 +19,9 @@ constexpr int n_second = ParamDim * (ParamDim + 1) / 2;
 /// an order that was not asked for.
 template <int ParamDim>
 struct BasisValues {
-  std::vector<int> column;                                   ///< control points, u fastest
-  std::vector<double> value;                                 ///< R_k(u), sums to 1
-  std::array<std::vector<double>, ParamDim> first;           ///< d/du, d/dv
+  std::vector<int> column;                                     ///< control points, u fastest
+  std::vector<double> value;                                   ///< R_k(u), sums to 1
+  std::array<std::vector<double>, ParamDim> first;             ///< d/du, d/dv
   std::array<std::vector<double>, n_second<ParamDim>> second;  ///< uu, uv, vv
 };
 
@@ -37,8 +37,8 @@ void evaluate_basis(const Nurbs<ParamDim, Dim>& nurbs, const Param<ParamDim>& u,
 template <int ParamDim, int Dim>
 struct Derivatives {
   Vec<Dim> point;
-  Eigen::Matrix<double, Dim, ParamDim> first;         ///< dX/du, dX/dv
-  std::array<Vec<Dim>, n_second<ParamDim>> second;    ///< uu, uv, vv
+  Eigen::Matrix<double, Dim, ParamDim> first;       ///< dX/du, dX/dv
+  std::array<Vec<Dim>, n_second<ParamDim>> second;  ///< uu, uv, vv
 };
 
 /// Position at u, same conventions as evaluate_basis. Does not allocate.
@@ -47,7 +47,6 @@ Vec<Dim> point(const Nurbs<ParamDim, Dim>& nurbs, const Param<ParamDim>& u);
 
 /// Position and derivatives to order 2, same conventions. Does not allocate.
 template <int ParamDim, int Dim>
-Derivatives<ParamDim, Dim> derivatives(const Nurbs<ParamDim, Dim>& nurbs,
-                                       const Param<ParamDim>& u);
+Derivatives<ParamDim, Dim> derivatives(const Nurbs<ParamDim, Dim>& nurbs, const Param<ParamDim>& u);
 
 }  // namespace sem

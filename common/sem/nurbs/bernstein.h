@@ -2,7 +2,11 @@
 // Internal: polynomials of one variable on [0, 1] in Bernstein form,
 // f(s) = sum_i c[i] B_i(s), c of length degree + 1.
 
+#include <array>
 #include <cmath>
+#include <vector>
+
+#include "sem/nurbs/nurbs.h"
 
 namespace sem::detail {
 
@@ -15,10 +19,43 @@ inline void split_half(const double* c, int degree, double* left, double* right)
   }
 }
 
-/// f(s) and f'(s) by de Casteljau; scratch holds degree + 1.
+/// Binomial coefficients (n over 0..n), n < 3 max_nurbs_degree.
+inline const double* binomials(int n) {
+  constexpr int n_rows = 3 * max_nurbs_degree;
+  static const auto table = [] {
+    std::vector<std::array<double, n_rows>> rows(n_rows);
+    for (int m = 0; m < n_rows; ++m) {
+      rows[m][0] = 1;
+      for (int k = 1; k <= m; ++k) rows[m][k] = rows[m][k - 1] * (m - k + 1) / k;
+    }
+    return rows;
+  }();
+  return table[n].data();
+}
+
+/// f(s) and f'(s), both divided by (1 - s)^degree or, in the upper half,
+/// by s^degree. `scaled` holds c[i] times the binomial (degree over i).
+/// Horner in s / (1 - s) <= 1, as well conditioned as de Casteljau.
 struct ValueSlope {
   double value, slope;
 };
+inline ValueSlope evaluate_scaled(const double* scaled, int degree, double s) {
+  const bool upper = s > 0.5;
+  const double larger = upper ? s : 1 - s, inverse = 1 / larger;
+  const double r = (upper ? 1 - s : s) * inverse;
+  const double* c = upper ? scaled : scaled + degree;
+  const int back = upper ? 1 : -1;
+  double value = *c, derivative = 0;
+  for (int i = 0; i < degree; ++i) {
+    c += back;
+    derivative = derivative * r + value;
+    value = value * r + *c;
+  }
+  const double slope = derivative * inverse * inverse - degree * value * inverse;
+  return {value, upper ? -slope : slope};
+}
+
+/// f(s) and f'(s) by de Casteljau; scratch holds degree + 1.
 inline ValueSlope evaluate(const double* c, int degree, double s, double* scratch) {
   for (int i = 0; i <= degree; ++i) scratch[i] = c[i];
   for (int n = degree; n > 1; --n)
@@ -29,13 +66,16 @@ inline ValueSlope evaluate(const double* c, int degree, double s, double* scratc
 
 /// The only sign change of f inside (0, 1), from the sign given to the other:
 /// Newton, kept inside a bracket. The values at the ends may be rounding.
+/// scratch holds degree + 1.
 inline double single_root(const double* c, int degree, bool start_positive, double* scratch) {
+  const double* binomial = binomials(degree);
+  for (int i = 0; i <= degree; ++i) scratch[i] = c[i] * binomial[i];
   double lower = 0, upper = 1;
   const bool secant = c[0] != 0 && c[degree] != 0 && (c[0] > 0) != (c[degree] > 0);
   double s = secant ? c[0] / (c[0] - c[degree]) : 0.5;
   double step = 1;
   for (int iteration = 0; iteration < 100; ++iteration) {
-    const auto [value, slope] = evaluate(c, degree, s, scratch);
+    const auto [value, slope] = evaluate_scaled(scratch, degree, s);
     if (value == 0) return s;
     ((value > 0) == start_positive ? lower : upper) = s;
     const double newton = s - value / slope;
@@ -43,7 +83,8 @@ inline double single_root(const double* c, int degree, bool start_positive, doub
     const bool trusted = newton > lower && newton < upper && std::abs(newton - s) < 0.5 * step;
     const double next = trusted ? newton : 0.5 * (lower + upper);
     step = std::abs(next - s);
-    if (step <= 1.2e-16 || upper - lower <= 2.3e-16) return next;
+    // Newton squares the error: after such a step the next is rounding.
+    if (step <= (trusted ? 1e-12 : 1.2e-16)) return next;
     s = next;
   }
   return s;

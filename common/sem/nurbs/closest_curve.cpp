@@ -129,10 +129,9 @@ class CurveClosest {
     const bool clearly_closer = !(best_.distance <= candidate.distance + tie_);
     const bool same_place = std::abs(candidate.u[0] - best_.u[0]) <= near_u_;
     const bool before = candidate.u[0] < best_.u[0];
-    const bool preferred =
-        same_place ? candidate.distance < best_.distance ||
-                         (candidate.distance == best_.distance && before)
-                   : before;
+    const bool preferred = same_place ? candidate.distance < best_.distance ||
+                                            (candidate.distance == best_.distance && before)
+                                      : before;
     if (clearly_closer || preferred) best_ = candidate;
     if (candidate.distance < least_) {
       least_ = candidate.distance;

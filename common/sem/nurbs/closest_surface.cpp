@@ -137,8 +137,8 @@ class SurfaceClosest {
     auto& weight_square = scratch_.weight_square;
     square.assign(size_t(row) * (2 * q + 1), 0.0);
     weight_square.assign(square.size(), 0.0);
-    const double* Bp = binomials(p);
-    const double* Bq = binomials(q);
+    const double* Bp = detail::binomials(p);
+    const double* Bq = detail::binomials(q);
     for (int j = 0; j <= q; ++j)
       for (int l = 0; l <= q; ++l)
         for (int i = 0; i <= p; ++i)
@@ -151,20 +151,9 @@ class SurfaceClosest {
             weight_square[m] += factor * a[3] * b[3];
           }
     double least = std::numeric_limits<double>::infinity();
-    for (size_t m = 0; m < square.size(); ++m) least = std::min(least, square[m] / weight_square[m]);
+    for (size_t m = 0; m < square.size(); ++m)
+      least = std::min(least, square[m] / weight_square[m]);
     return std::sqrt(std::max(0.0, least));
-  }
-
-  static const double* binomials(int n) {
-    static const auto table = [] {
-      std::array<std::array<double, max_functions>, max_functions> result{};
-      for (int m = 0; m < max_functions; ++m) {
-        result[m][0] = 1;
-        for (int k = 1; k <= m; ++k) result[m][k] = result[m][k - 1] * (m - k + 1) / k;
-      }
-      return result;
-    }();
-    return table[n].data();
   }
 
   // The corner or centre of a patch closest to X.
@@ -192,9 +181,9 @@ class SurfaceClosest {
   }
 
   struct Jet {
-    Vec<3> offset;                          // C - X
+    Vec<3> offset;  // C - X
     Eigen::Matrix<double, 3, 2> first;
-    Vec<3> second[3];                       // uu, uv, vv
+    Vec<3> second[3];  // uu, uv, vv
   };
 
   Jet evaluate(const Vec<2>& s) const {
@@ -221,7 +210,8 @@ class SurfaceClosest {
     for (int m = 0; m < 3; ++m) {
       const int a = m == 2 ? 1 : 0, b = m == 0 ? 0 : 1;
       jet.second[m] = (A.col(3 + m).head<3>() - A(3, 1 + a) * jet.first.col(b) -
-                       A(3, 1 + b) * jet.first.col(a) - A(3, 3 + m) * jet.offset) / w;
+                       A(3, 1 + b) * jet.first.col(a) - A(3, 3 + m) * jet.offset) /
+                      w;
     }
     return jet;
   }

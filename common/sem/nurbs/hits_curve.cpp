@@ -142,9 +142,10 @@ class CurveHits {
                           std::is_sorted(x.f, x.f + degree_ + 1, std::greater<>());
     if (!monotone && x.depth < max_depth) return false;
     if (crosses) {
-      const double s = x.f[0] == 0         ? 0
-                       : x.f[degree_] == 0 ? 1
-                                           : detail::single_root(x.f, degree_, x.f[0] > 0, scratch_);
+      const double s = x.f[0] == 0 ? 0
+                       : x.f[degree_] == 0
+                           ? 1
+                           : detail::single_root(x.f, degree_, x.f[0] > 0, scratch_);
       add_at(x.a + s * (x.b - x.a), Place::root, true, false, x.touches_a, x.touches_b);
     } else if (x.touches_a) {
       add_at(x.a, Place::touch, false, false, true, x.touches_b);

@@ -16,9 +16,9 @@ namespace sem {
 namespace {
 
 constexpr int max_functions = max_nurbs_degree + 1;
-constexpr int max_halvings = 27;     // of each axis, for tangencies
-constexpr int coarse_halvings = 9;   // once max_patches are exceeded: a line along the surface
-constexpr int max_patches = 8000;    // per piece
+constexpr int max_halvings = 27;    // of each axis, for tangencies
+constexpr int coarse_halvings = 9;  // once max_patches are exceeded: a line along the surface
+constexpr int max_patches = 8000;   // per piece
 
 struct Patch {
   double lower[2], upper[2];  // in [0, 1]^2 of the piece
@@ -35,6 +35,7 @@ struct Scratch {
   std::vector<double> coefficients;  // of the stack: f, g interleaved
   std::vector<Patch> patches;
   std::vector<Candidate> candidates;
+  std::vector<double> whole;  // f, g of a whole piece, for degenerate hits
 };
 
 struct Jet {
@@ -193,29 +194,43 @@ class SurfaceHits {
       if (step.cwiseAbs().maxCoeff() > 1e-15) continue;
       break;
     }
-    if ((s.array() < -1e-8).any() || (s.array() > 1 + 1e-8).any()) return false;
+    // A root outside by rounding is a root on the boundary of the patch.
+    if ((s.array() < 0).any() || (s.array() > 1).any())
+      s = least_squares(c, s.cwiseMax(0.0).cwiseMin(1.0), {0, 0}, {1, 1});
     Vec<2> global;
     for (int a = 0; a < 2; ++a)
-      global[a] = std::clamp(patch.lower[a] + s[a] * (patch.upper[a] - patch.lower[a]), 0.0, 1.0);
+      global[a] =
+          s[a] == 1 ? patch.upper[a] : patch.lower[a] + s[a] * (patch.upper[a] - patch.lower[a]);
     return add(global, 0);
   }
 
-  // Least squares on a patch too small to tell more: a touching point.
-  void add_degenerate(const Patch& patch) {
-    Eigen::Map<const Vec<2>> lower(patch.lower), upper(patch.upper);
-    Vec<2> s = 0.5 * (lower + upper);
-    const double* whole = whole_coefficients();
+  // Least |(f, g)| in a box by Gauss-Newton; coordinates that would leave it
+  // stay on its boundary.
+  Vec<2> least_squares(const double* c, Vec<2> s, const Vec<2>& lower, const Vec<2>& upper) const {
     for (int iteration = 0; iteration < 20; ++iteration) {
-      const Jet jet = evaluate(whole, s);
-      const Mat<2> A = jet.jacobian.transpose() * jet.jacobian;
-      const double damping = 1e-12 * A.trace() + 1e-300;
-      const Vec<2> step =
-          (A + damping * Mat<2>::Identity()).inverse() * (jet.jacobian.transpose() * jet.value);
+      const Jet jet = evaluate(c, s);
+      Mat<2> A = jet.jacobian.transpose() * jet.jacobian;
+      const Vec<2> b = jet.jacobian.transpose() * jet.value;
+      A.diagonal().array() += 1e-15 * A.trace() + 1e-300;
+      Vec<2> step = A.inverse() * b;
+      for (int a = 0; a < 2; ++a)
+        if ((s[a] == lower[a] && step[a] > 0) || (s[a] == upper[a] && step[a] < 0)) {
+          step[a] = 0;
+          step[1 - a] = b[1 - a] / A(1 - a, 1 - a);
+          break;
+        }
       const Vec<2> next = (s - step).cwiseMax(lower).cwiseMin(upper);
       const bool done = (next - s).cwiseAbs().maxCoeff() < 1e-16;
       s = next;
       if (done) break;
     }
+    return s;
+  }
+
+  // On a patch too small to tell more: a touching point.
+  void add_degenerate(const Patch& patch) {
+    const Vec<2> lower(patch.lower[0], patch.lower[1]), upper(patch.upper[0], patch.upper[1]);
+    const Vec<2> s = least_squares(whole_coefficients(), 0.5 * (lower + upper), lower, upper);
     Box<3> box;
     box.include(point(*piece_, Param<2>(lower)));
     box.include(point(*piece_, Param<2>(upper)));
@@ -251,12 +266,13 @@ class SurfaceHits {
   }
 
   const double* whole_coefficients() {
-    whole_.resize(2 * n_);
+    scratch_.whole.resize(2 * n_);
     for (int i = 0; i < n_; ++i) {
       const Vec<3> X = piece_->points.col(i) - line_.origin;
-      for (int k = 0; k < 2; ++k) whole_[2 * i + k] = piece_->weights[i] * normals_.col(k).dot(X);
+      for (int k = 0; k < 2; ++k)
+        scratch_.whole[2 * i + k] = piece_->weights[i] * normals_.col(k).dot(X);
     }
-    return whole_.data();
+    return scratch_.whole.data();
   }
 
   // Adds a hit at local parameters if it is on the line to rounding.
@@ -270,8 +286,8 @@ class SurfaceHits {
       hit.u[a] = s[a] == 1 ? piece_->upper[a]
                            : piece_->lower[a] + s[a] * (piece_->upper[a] - piece_->lower[a]);
     const Vec<3> normal = DimTraits<3>::area_normal(derivatives(part_.nurbs, hit.u).first);
-    hit.tangent = std::abs(normal.dot(line_.direction)) <=
-                  1e-6 * normal.norm() * line_.direction.norm();
+    hit.tangent =
+        std::abs(normal.dot(line_.direction)) <= 1e-6 * normal.norm() * line_.direction.norm();
     hit.crosses = !hit.tangent;
     hit.along = false;
     candidate.reach = reach;
@@ -287,8 +303,8 @@ class SurfaceHits {
         const int next = axis == 0 ? i + 1 : i + n_u;
         if (axis == 0 ? next % n_u == 0 : next >= n_) continue;
         for (int k = 0; k < 2; ++k)
-          variation[axis] =
-              std::max(variation[axis], piece_->degree[axis] * std::abs(c[2 * next + k] - c[2 * i + k]));
+          variation[axis] = std::max(
+              variation[axis], piece_->degree[axis] * std::abs(c[2 * next + k] - c[2 * i + k]));
       }
     // Not the longest way in the plane alone: keep patches of bounded shape.
     if (std::abs(patch.halvings[0] - patch.halvings[1]) > 3)
@@ -303,7 +319,6 @@ class SurfaceHits {
   double tolerance_ = 0, f_tolerance_ = 0;
   const BezierPiece<2, 3>* piece_ = nullptr;
   int n_ = 0, n_patches_ = 0;
-  std::vector<double> whole_;  // used for degenerate hits only
 };
 
 // The same point found from neighbouring patches.
@@ -343,9 +358,10 @@ void append_merged(const PreparedNurbs<2, 3>& part, double speed, std::vector<Ca
       append(start);
       append(end);
     } else {
-      const bool near_simple = std::any_of(out.begin() + first_out, out.end(), [&](const auto& hit) {
-        return same_hit(hit, start, 10 * domain_size, 1e-5 * size / speed);
-      });
+      const bool near_simple =
+          std::any_of(out.begin() + first_out, out.end(), [&](const auto& hit) {
+            return same_hit(hit, start, 10 * domain_size, 1e-5 * size / speed);
+          });
       if (!near_simple) append((first + (last - first) / 2)->hit);
     }
     first = next;

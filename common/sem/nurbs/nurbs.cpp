@@ -102,18 +102,20 @@ bool is_closed(const Nurbs<ParamDim, Dim>& nurbs, int axis) {
   detail::AxisMap ends;
   for (double u : {domain(nurbs, axis).lower, domain(nurbs, axis).upper}) {
     const std::vector<double> arguments(degree, u);
-    detail::append_polar_form(knots, degree, detail::find_span(knots, degree, u),
-                              arguments.data(), ends);
+    detail::append_polar_form(knots, degree, detail::find_span(knots, degree, u), arguments.data(),
+                              ends);
   }
   Nurbs<ParamDim, Dim> isocurves = nurbs;  // control points of both ends
   detail::apply(ends, axis, isocurves);
-  const double size = (nurbs.control_points.rowwise().maxCoeff() -
-                       nurbs.control_points.rowwise().minCoeff()).maxCoeff();
+  const double size =
+      (nurbs.control_points.rowwise().maxCoeff() - nurbs.control_points.rowwise().minCoeff())
+          .maxCoeff();
   const long stride = axis == 0 ? 1 : isocurves.weights.size() / 2;
   double ratio = -1;
   for (long i = 0; i < isocurves.weights.size(); ++i) {
     if (axis == 0 ? i % 2 == 1 : i >= stride) continue;
-    const auto difference = isocurves.control_points.col(i) - isocurves.control_points.col(i + stride);
+    const auto difference =
+        isocurves.control_points.col(i) - isocurves.control_points.col(i + stride);
     if (difference.cwiseAbs().maxCoeff() > 1e-12 * size) return false;
     const double r = isocurves.weights[i] / isocurves.weights[i + stride];
     if (ratio > 0 && std::abs(r - ratio) > 1e-12 * ratio) return false;
@@ -122,9 +124,9 @@ bool is_closed(const Nurbs<ParamDim, Dim>& nurbs, int axis) {
   return true;
 }
 
-#define SEM_INSTANTIATE(ParamDim, Dim)                                                  \
+#define SEM_INSTANTIATE(ParamDim, Dim)                                                      \
   template void check(const Nurbs<ParamDim, Dim>&, const std::string&, const std::string&); \
-  template std::vector<Interval> spans(const Nurbs<ParamDim, Dim>&, int);               \
+  template std::vector<Interval> spans(const Nurbs<ParamDim, Dim>&, int);                   \
   template bool is_closed(const Nurbs<ParamDim, Dim>&, int);
 SEM_INSTANTIATE(1, 2)
 SEM_INSTANTIATE(1, 3)

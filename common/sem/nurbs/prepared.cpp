@@ -1,6 +1,7 @@
 #include "sem/nurbs/prepared.h"
 
 #include "sem/nurbs/axis_map.h"
+#include "sem/nurbs/bernstein.h"
 
 namespace sem {
 namespace {
@@ -31,16 +32,12 @@ void prepare_foot(BezierPiece<1, Dim>& piece) {
   const int p = piece.degree[0];
   const bool polynomial = (piece.weights.array() == piece.weights[0]).all();
   const Vec<Dim> centre = 0.5 * (piece.box.lower + piece.box.upper);
-  const auto binomials = [](int n) {
-    Eigen::VectorXd b(n + 1);
-    b[0] = 1;
-    for (int k = 1; k <= n; ++k) b[k] = b[k - 1] * (n - k + 1) / k;
-    return b;
-  };
-  const Eigen::VectorXd b0 = binomials(p), b1 = binomials(p - 1);
+  const double* b0 = detail::binomials(p);
+  const double* b1 = detail::binomials(p - 1);
   Points<Dim> A = piece.points.colwise() - centre;
   for (int i = 0; i <= p; ++i) A.col(i) *= piece.weights[i] * b0[i];
-  const Eigen::VectorXd W = piece.weights.cwiseProduct(b0);
+  const Eigen::VectorXd W =
+      piece.weights.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(b0, p + 1));
   Points<Dim> E = Points<Dim>::Zero(Dim, polynomial ? p : 2 * p);
   for (int i = 0; i < p; ++i) {
     const double dw = b1[i] * (piece.weights[i + 1] - piece.weights[i]);
@@ -59,7 +56,7 @@ void prepare_foot(BezierPiece<1, Dim>& piece) {
       piece.foot(0, i + j) += A.col(i).dot(E.col(j));
       piece.foot.col(i + j).template tail<Dim>() += W[i] * E.col(j);
     }
-  const Eigen::VectorXd b = binomials(n);
+  const double* b = detail::binomials(n);
   for (int k = 0; k <= n; ++k) piece.foot.col(k) /= b[k];
 }
 
@@ -123,7 +120,8 @@ Vec<Dim> point(const BezierPiece<ParamDim, Dim>& piece, const Param<ParamDim>& s
     basis[a][0] = 1;
     for (int j = 1; j <= piece.degree[a]; ++j) {
       basis[a][j] = s[a] * basis[a][j - 1];
-      for (int r = j - 1; r > 0; --r) basis[a][r] = (1 - s[a]) * basis[a][r] + s[a] * basis[a][r - 1];
+      for (int r = j - 1; r > 0; --r)
+        basis[a][r] = (1 - s[a]) * basis[a][r] + s[a] * basis[a][r - 1];
       basis[a][0] *= 1 - s[a];
     }
   }
@@ -139,8 +137,8 @@ Vec<Dim> point(const BezierPiece<ParamDim, Dim>& piece, const Param<ParamDim>& s
   return sum / weight;
 }
 
-#define SEM_INSTANTIATE(P, D)                                       \
-  template PreparedNurbs<P, D> prepare(const Nurbs<P, D>&);         \
+#define SEM_INSTANTIATE(P, D)                               \
+  template PreparedNurbs<P, D> prepare(const Nurbs<P, D>&); \
   template Vec<D> point(const BezierPiece<P, D>&, const Param<P>&);
 SEM_INSTANTIATE(1, 2)
 SEM_INSTANTIATE(1, 3)

@@ -11,11 +11,11 @@ namespace sem {
 /// a coordinate difference is exact.
 template <int ParamDim, int Dim>
 struct BezierPiece {
-  Param<ParamDim> lower, upper;      ///< its part of the domain
+  Param<ParamDim> lower, upper;  ///< its part of the domain
   std::array<int, ParamDim> degree;
-  Points<Dim> points;                ///< Dim by prod (degree + 1), u fastest
-  Eigen::VectorXd weights;           ///< > 0
-  Box<Dim> box;                      ///< holds the piece: weights > 0, so the convex hull does
+  Points<Dim> points;       ///< Dim by prod (degree + 1), u fastest
+  Eigen::VectorXd weights;  ///< > 0
+  Box<Dim> box;             ///< holds the piece: weights > 0, so the convex hull does
   /// Curves: Bernstein coefficients foot(k, 0..Dim) of a polynomial that has
   /// the sign of (C(s) - X).C'(s), foot(k, 0) - foot(k, 1..Dim).(X - box
   /// centre) for any X; closest points are among its roots.

@@ -78,8 +78,7 @@ detail::AxisMap elevation_map(const std::vector<double>& knots, int degree,
 }  // namespace
 
 template <int ParamDim, int Dim>
-Nurbs<ParamDim, Dim> insert_knot(const Nurbs<ParamDim, Dim>& nurbs, int axis, double u,
-                                 int times) {
+Nurbs<ParamDim, Dim> insert_knot(const Nurbs<ParamDim, Dim>& nurbs, int axis, double u, int times) {
   std::vector<double> finer = nurbs.knots[axis];
   assert(u >= domain(nurbs, axis).lower && u <= domain(nurbs, axis).upper);
   finer.insert(std::upper_bound(finer.begin(), finer.end(), u), times, u);
@@ -150,12 +149,12 @@ Nurbs<ParamDim, Dim> with_domain(const Nurbs<ParamDim, Dim>& nurbs, int axis, In
   return result;
 }
 
-#define SEM_INSTANTIATE(P, D)                                                      \
-  template Nurbs<P, D> insert_knot(const Nurbs<P, D>&, int, double, int);          \
-  template Nurbs<P, D> elevate_degree(const Nurbs<P, D>&, int, int);               \
-  template Nurbs<P, D> clamped(const Nurbs<P, D>&, int);                           \
-  template std::array<Nurbs<P, D>, 2> split_at(const Nurbs<P, D>&, int, double);   \
-  template Nurbs<P, D> reversed(const Nurbs<P, D>&, int);                          \
+#define SEM_INSTANTIATE(P, D)                                                    \
+  template Nurbs<P, D> insert_knot(const Nurbs<P, D>&, int, double, int);        \
+  template Nurbs<P, D> elevate_degree(const Nurbs<P, D>&, int, int);             \
+  template Nurbs<P, D> clamped(const Nurbs<P, D>&, int);                         \
+  template std::array<Nurbs<P, D>, 2> split_at(const Nurbs<P, D>&, int, double); \
+  template Nurbs<P, D> reversed(const Nurbs<P, D>&, int);                        \
   template Nurbs<P, D> with_domain(const Nurbs<P, D>&, int, Interval);
 SEM_INSTANTIATE(1, 2)
 SEM_INSTANTIATE(1, 3)

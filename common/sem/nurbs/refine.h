@@ -27,8 +27,7 @@ Nurbs<ParamDim, Dim> clamped(const Nurbs<ParamDim, Dim>& nurbs, int axis);
 /// The NURBS before and after u (strictly inside the domain) along an axis,
 /// each clamped there, with the parameters they had.
 template <int ParamDim, int Dim>
-std::array<Nurbs<ParamDim, Dim>, 2> split_at(const Nurbs<ParamDim, Dim>& nurbs, int axis,
-                                             double u);
+std::array<Nurbs<ParamDim, Dim>, 2> split_at(const Nurbs<ParamDim, Dim>& nurbs, int axis, double u);
 
 /// Runs the axis backwards over the same domain: X(u) becomes
 /// X(lower + upper - u).

@@ -12,9 +12,9 @@ constexpr double armijo = 1e-4;     // share of the predicted decrease that is a
 constexpr int max_backtracks = 40;  // 2^-40: the direction is useless
 constexpr double energy_noise =
     1e-9;  // a predicted decrease below this share of its terms may be rounding
-constexpr double rounding_margin = 32;  // |r| below this many roundings of the forces is zero
-constexpr double first_shift = 1e-6, last_shift = 1;  // shares of the diagonal
-constexpr double smallest_shift = 1e-300;             // where the diagonal is all zero
+// |r| below this many roundings of the forces is zero, if it is small at all.
+constexpr double rounding_margin = 32, small_residual = 1e-4;
+constexpr double first_shift = 1e-3, last_shift = 10;  // shares of the diagonal
 }  // namespace
 
 Newton::Newton(const System& system) : system_(system), cholesky_(int(system.free.size())) {
@@ -58,9 +58,10 @@ bool Newton::factorize() {
   return cholesky_.compute(matrix_);
 }
 
+// Adds a share of the raw matrix's diagonal, left in free_work_.
 void Newton::add_shift(double share) {
-  const double least = std::max(1e-3 * matrix_.diagonal().mean(), smallest_shift);
-  matrix_.diagonal().array() += share * matrix_.diagonal().array().max(least);
+  const double mean = free_work_.mean();
+  matrix_.diagonal().array() += share * free_work_.array().max(1e-3 * mean);
   ++counters_.n_shifts;
 }
 
@@ -74,24 +75,26 @@ Status Newton::direction(double inertia) {
   // Singular: by the projection alone (a shift helps), or for want of stiffness?
   assemble(inertia, false);
   if (is_singular(matrix_)) return Status::singular;
+  free_work_ = matrix_.diagonal().cwiseAbs();
   assemble(inertia, true);
   if (!matrix_.allFinite()) return Status::not_finite;
-  for (double share = first_shift; share <= last_shift; share *= 100) {
+  for (double share = first_shift; share <= last_shift; share *= 10) {
     add_shift(share);
     if (factorize()) return Status::converged;
   }
   return Status::singular;
 }
 
-// The rounding error to expect in the residual: of forces that are sums of H_ij z_j.
-double Newton::rounding_level() const {
+// True if r is as small as the rounding of forces that are sums of H_ij z_j.
+bool Newton::is_rounding(double residual, double norm) const {
+  if (residual > small_residual) return false;
   double sum = 0;
   for (const int i : system_.free) {
     double row = std::abs(inertial_(i));
     for (int j = 0; j < hessian_.cols(); ++j) row += std::abs(hessian_(j, i) * z_(j));
     sum += row * row;
   }
-  return epsilon * std::sqrt(sum);
+  return norm <= rounding_margin * epsilon * std::sqrt(sum);
 }
 
 // Moves the pinned entries to their prescribed values and the free ones along
@@ -179,14 +182,14 @@ NewtonReport Newton::minimize(const IncrementProblem& problem, const NewtonOptio
     report.reference_force = std::max(start_force, gradient_.norm());
     report.residual = norm > 0 ? norm / report.reference_force : 0;
     if (!moving && report.residual <= options.tolerance) break;
-    if (!moving && report.iterations > 0 && norm <= rounding_margin * rounding_level()) break;
+    if (!moving && report.iterations > 0 && is_rounding(report.residual, norm)) break;
     if (report.iterations == options.max_iterations) {
       report.status = Status::max_iterations;
       break;
     }
     report.status = direction(problem.inertia);
     if (report.status != Status::converged) break;
-    if (!moving && report.iterations == 0 && norm <= rounding_margin * rounding_level()) break;
+    if (!moving && report.iterations == 0 && is_rounding(report.residual, norm)) break;
     ++report.iterations;
     if (moving) {
       moving = false;

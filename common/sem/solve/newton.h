@@ -56,7 +56,8 @@ class Newton {
   /// residual. The direction comes from the Cholesky factor of the raw Hessian;
   /// if that is indefinite, of the projected one; if that fails, of the
   /// projected one plus a multiple of its diagonal. Converged: residual <=
-  /// tolerance, or r is down to the rounding of the internal forces. On failure
+  /// tolerance, or r is down to the rounding of the internal forces
+  /// (and below 1e-4 of the reference force). On failure
   /// u is the last iterate. Never returns a non-finite u.
   NewtonReport minimize(const IncrementProblem& problem, const NewtonOptions& options,
                         Eigen::VectorXd& u);
@@ -72,7 +73,7 @@ class Newton {
   Status direction(double inertia);
   bool predict(const IncrementProblem& problem, Eigen::VectorXd& u);
   bool line_search(const IncrementProblem& problem, Eigen::VectorXd& u);
-  double rounding_level() const;
+  bool is_rounding(double residual, double norm) const;
   double reference_force(const IncrementProblem& problem);
   bool pins_move(const IncrementProblem& problem);
 

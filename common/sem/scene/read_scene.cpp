@@ -1,0 +1,338 @@
+#include "sem/scene/read_scene.h"
+
+#include <algorithm>
+#include <set>
+
+#include "sem/base/error.h"
+
+namespace sem {
+namespace {
+
+constexpr int many = 1 << 30;
+
+void describe_material(Fields& fields, Material& m) {
+  fields.choice("model", m.model, {"linear", "stvk", "corotated", "neo_log", "neo_ref", "neo_iso"},
+                "energy density; see the material table of the README");
+  fields.number("youngs_modulus", m.youngs_modulus, positive, "Pa", "E");
+  fields.number("poisson_ratio", m.poisson_ratio, inside_of(-1, 0.5), "", "nu");
+  fields.number("density", m.density, at_least(0), "kg/m^3", "rho, mass per rest volume (2D: per unit thickness)");
+}
+
+template <int Dim>
+void describe_part(Fields& fields, ScenePart<Dim>& part) {
+  fields.text("name", part.name, "unique in the solid; the text before a dot is the part's group");
+  auto& shape = part.shape;
+  for (int axis = 0; axis < Dim - 1; ++axis) {
+    const std::string suffix = DimTraits<Dim>::parameter_suffix[axis];
+    const std::string degree = "degree" + suffix, knots = "knots" + suffix;
+    fields.require(degree.c_str());
+    fields.integer(degree.c_str(), shape.degree[axis], 1, max_nurbs_degree, "degree of the NURBS");
+    fields.require(knots.c_str());
+    fields.numbers(knots.c_str(), shape.knots[axis], 0, any_number, "",
+                   "non-decreasing, as many as control points along the parameter + degree + 1");
+  }
+  fields.require("control_points");
+  fields.points<Dim>("control_points", shape.control_points, "m", "at rest; the first parameter runs fastest");
+  const int n = int(shape.control_points.cols());
+  std::vector<double> weights(shape.weights.begin(), shape.weights.end());
+  if (fields.optional("weights", !shape.weights.isOnes(0)))
+    fields.numbers("weights", weights, fields.reading() ? std::max(1, n) : 0, positive, "", "of the control points; all 1 if absent");
+  else
+    weights.assign(n, 1);
+  if (fields.reading()) {
+    shape.weights = Eigen::Map<const Eigen::VectorXd>(weights.data(), Eigen::Index(weights.size()));
+    check(shape, fields.file(), fields.path());
+  }
+  if (fields.optional("material", part.material.has_value())) {
+    if (!part.material) part.material.emplace();
+    fields.object("material", "in place of the solid's where this part's weight is the largest",
+                  [&](Fields& f) { describe_material(f, *part.material); });
+  }
+}
+
+template <int Dim>
+void describe_solid(Fields& fields, SceneSolid<Dim>& solid, const ShapeLibrary<Dim>& shapes) {
+  fields.text("name", solid.name, "unique in the scene");
+  fields.object("material", "of the whole solid", [&](Fields& f) { describe_material(f, solid.material); });
+  fields.items<ScenePart<Dim>>("parts", solid.parts, "the NURBS that bound the solid, in any order and orientation",
+                               describe_part<Dim>);
+  if (fields.optional("shape", false) && shapes)
+    fields.object("shape", "parts from the shape library, in place of or beside 'parts'",
+                  [&](Fields& f) { shapes(f, solid.parts); });
+  if (!fields.reading()) return;
+  if (solid.parts.empty()) fields.reject(nullptr, "no part", "'parts' or a 'shape'");
+  std::set<std::string> names;
+  for (size_t i = 0; i < solid.parts.size(); ++i) {
+    std::string& name = solid.parts[i].name;
+    if (name.empty()) name = "part." + std::to_string(i + 1);
+    if (!names.insert(name).second) fields.reject("parts", "two parts named '" + name + "'", "a name of its own for each part");
+  }
+}
+
+template <int Dim>
+void describe_method(Fields& fields, MethodOptions& m) {
+  fields.integer("degree", m.projection.degree, 1, 4, "n, degree of the deformation polynomials");
+  fields.choice("fit", m.projection.fit, {"degree_by_degree", "degree_by_degree_raw", "pseudo_inverse"},
+                "projection; pseudo_inverse is the draft's");
+  fields.object("samples", "boundary samples", [&](Fields& f) {
+    f.integer("points_per_span", m.sampling.points_per_span, 0, 1000, "Gauss-Lobatto points per knot span; 0: NURBS degree + 1");
+    if (m.sampling.points_per_span == 1) f.reject("points_per_span", "1", "0 or at least 2");
+    f.choice("weight", m.sampling.weight, {"measure", "uniform"}, "arc length or area, or all the same (the draft)");
+  });
+  fields.object("quadrature", "interior quadrature by rays", [&](Fields& f) {
+    f.option("axis", m.rays.axis, DimTraits<Dim>::axes(), "direction of the rays");
+    f.integer("rays", m.rays.n_rays, 1, 100000, "rays per transverse direction");
+    f.choice("grid", m.rays.grid, {"midpoint", "gauss"}, "where the rays stand");
+    f.choice("rule", m.interval.rule, {"midpoint", "gauss"}, "points in each interval of a ray");
+    f.integer("points", m.interval.points, 1, 10000, "points per interval, if spacing is 0");
+    f.number("spacing", m.interval.spacing, at_least(0), "m", "> 0: as many points as keep this distance");
+  });
+  fields.object("weights", "blending weights", [&](Fields& f) {
+    f.choice("distance", m.weights.variant, {"published", "draft", "distance_only"}, "formula of the distance weight theta");
+    if (f.optional("sparsity", m.weights.sparsity.has_value())) {
+      if (f.reading() && f.optional("cutoff", false)) f.reject("cutoff", "both cutoff and sparsity", "one of them");
+      if (!m.weights.sparsity) m.weights.sparsity = 0.3;
+      f.number("sparsity", *m.weights.sparsity, {0, 1, true, false}, "", "in place of cutoff: share of non-zero weights");
+      if (f.documenting()) m.weights.sparsity.reset();
+    }
+    if (!m.weights.sparsity) f.number("cutoff", m.weights.cutoff, positive, "m", "alpha, where weights end");
+  });
+  fields.choice("origins", m.origins, {"one", "shared_parts"}, "deformation origins: one for all (the draft), or by shared parts");
+  fields.integer("kept_columns", m.kept_columns, 0, many, "draft eq. 14: columns of B kept per point, 0: all");
+  fields.boolean("renormalise", m.renormalise, "after pruning, so that translations stay exact");
+  fields.integer("threads", m.n_threads, 1, 256, "for the preparation; results do not depend on it");
+}
+
+template <int Dim>
+void describe_selector(Fields& fields, Selector<Dim>& where, bool controls) {
+  fields.text("part", where.part, "name or group of parts, also as solid/part; empty: any");
+  if (fields.optional("box", where.box.has_value())) {
+    if (!where.box) where.box = Box<Dim>{Vec<Dim>::Zero(), Vec<Dim>::Zero()};
+    fields.object("box", "only what lies in this box at rest", [&](Fields& f) {
+      f.require("lower");
+      f.vector<Dim>("lower", where.box->lower, "m", "corner");
+      f.require("upper");
+      f.vector<Dim>("upper", where.box->upper, "m", "opposite corner");
+      if ((where.box->lower.array() > where.box->upper.array()).any())
+        f.reject("lower", "a corner above 'upper'", "lower <= upper in every coordinate");
+    });
+  }
+  if (controls && fields.optional("control_points", !where.control_points.empty()))
+    fields.integers("control_points", where.control_points, 0, "only these, counted from 0 in each part");
+}
+
+template <int Dim>
+void describe_pin(Fields& fields, Pin<Dim>& pin) {
+  describe_selector(fields, pin.where, true);
+  std::string axes;
+  if (!fields.reading())
+    for (int a = 0; a < Dim; ++a)
+      if (pin.axes[a]) axes += DimTraits<Dim>::axes()[a];
+  if (!fields.optional("axes", true)) axes = DimTraits<Dim>::axis_name;
+  fields.text("axes", axes, "components held; all if absent");
+  if (axes.empty()) fields.reject("axes", "no axis", std::string("some of ") + DimTraits<Dim>::axis_name);
+  if (fields.reading()) pin.axes.fill(false);
+  for (const char axis : axes) {
+    const auto at = std::string(DimTraits<Dim>::axis_name).find(axis);
+    if (at == std::string::npos)
+      fields.reject("axes", std::string("'") + axis + "'", std::string("some of ") + DimTraits<Dim>::axis_name);
+    else
+      pin.axes[at] = true;
+  }
+  fields.vector<Dim>("displacement", pin.displacement, "m", "prescribed displacement (static analysis)");
+}
+
+// The loads of a scene as one list with a type each.
+template <int Dim>
+void describe_loads(Fields& fields, Scene<Dim>& scene) {
+  const int n_point = int(scene.point_loads.size()), n_boundary = int(scene.boundary_loads.size());
+  const int n = n_point + n_boundary + int(scene.body_loads.size());
+  fields.list("loads", "dead loads; 2D: per unit thickness", n, [](int) {}, [&](Fields& f, int i) {
+    int type = i < n_point ? 0 : i < n_point + n_boundary ? 1 : 2;
+    f.require("type");
+    f.option("type", type, {"point", "boundary", "body"}, "what the load acts on");
+    const auto describe_point = [&](PointLoad<Dim>& load) {
+      f.require("at");
+      f.vector<Dim>("at", load.at, "m", "point: a rest point in or on the body");
+      f.require("force");
+      f.vector<Dim>("force", load.force, "N", "point: force; body: force per volume in N/m^3");
+    };
+    const auto describe_boundary = [&](BoundaryLoad<Dim>& load) {
+      describe_selector(f, load.where, false);
+      f.vector<Dim>("traction", load.traction, "Pa", "boundary: force per length (2D) or area, fixed direction");
+      f.number("pressure", load.pressure, any_number, "Pa", "boundary: pushes against the outward rest normal");
+    };
+    const auto describe_body = [&](BodyLoad<Dim>& load) {
+      f.require("force");
+      f.vector<Dim>("force", load.force, "N/m^3", "body: force per rest volume");
+      f.text("solid", load.solid, "body: only this solid; empty: all");
+    };
+    if (f.documenting()) {
+      PointLoad<Dim> point{Vec<Dim>::Zero(), Vec<Dim>::Zero()};
+      BoundaryLoad<Dim> boundary;
+      BodyLoad<Dim> body{"", Vec<Dim>::Zero()};
+      describe_point(point);
+      describe_boundary(boundary);
+      f.text("solid", body.solid, "body: only this solid; empty: all");
+    } else if (f.reading()) {
+      if (type == 0) describe_point(scene.point_loads.emplace_back());
+      if (type == 1) describe_boundary(scene.boundary_loads.emplace_back());
+      if (type == 2) describe_body(scene.body_loads.emplace_back());
+    } else {
+      if (type == 0) describe_point(scene.point_loads[i]);
+      if (type == 1) describe_boundary(scene.boundary_loads[i - n_point]);
+      if (type == 2) describe_body(scene.body_loads[i - n_point - n_boundary]);
+    }
+  });
+}
+
+template <int Dim>
+void describe_probe(Fields& fields, Probe<Dim>& probe) {
+  fields.require("name");
+  fields.text("name", probe.name, "starts the probe's columns in history.csv");
+  fields.choice("type", probe.kind, {"displacement", "stress", "reaction"}, "what is written over time (stress: Cauchy)");
+  const bool at_pin = probe.kind == ProbeKind::reaction;
+  if (!at_pin || fields.documenting()) {
+    fields.require("at");
+    fields.vector<Dim>("at", probe.at, "m", "displacement, stress: a rest point in or on the body");
+  }
+  if (at_pin || fields.documenting()) {
+    fields.require("pin");
+    fields.integer("pin", probe.pin, 0, many, "reaction: index of the pin, from 0");
+  }
+}
+
+void describe_analysis(Fields& fields, Analysis& a) {
+  fields.choice("type", a.kind, {"static", "dynamic", "modes"}, "what is computed");
+  if (a.kind == AnalysisKind::dynamics || fields.documenting()) {
+    fields.choice("integrator", a.integrator, {"linearly_implicit_euler", "implicit_euler", "implicit_midpoint"},
+                  "dynamic: time integration");
+    fields.number("time_step", a.time_step, positive, "s", "dynamic: length of a step");
+    fields.number("duration", a.duration, positive, "s", "dynamic: simulated time");
+    if (a.duration < a.time_step) fields.reject("duration", "less than one time_step", "at least one time_step");
+    if (a.duration > 1e9 * a.time_step) fields.reject("duration", "more than 1e9 steps", "fewer steps");
+  }
+  if (a.kind == AnalysisKind::statics || fields.documenting()) {
+    fields.integer("load_steps", a.load_steps, 1, 100000, "static: steps from no load to all");
+    fields.integer("max_iterations", a.max_iterations, 1, 100000, "static: Newton iterations per load step");
+    fields.number("tolerance", a.tolerance, inside_of(0, 1), "", "static: relative residual");
+  }
+  if (a.kind == AnalysisKind::modes || fields.documenting())
+    fields.integer("count", a.n_modes, 1, 100000, "modes: how many of the lowest");
+}
+
+void describe_output(Fields& fields, OutputOptions& o) {
+  fields.number("frame_rate", o.frame_rate, between(0, 1e6), "1/s", "frames per simulated second; 0: none");
+  fields.integer("width", o.width, 16, 8192, "of a frame, pixels");
+  fields.integer("height", o.height, 16, 8192, "of a frame, pixels");
+  fields.boolean("error_estimate", o.error_estimate, "repeat the run with varied settings to judge the probes");
+  fields.number("checkpoint_interval", o.checkpoint_interval, at_least(0), "s", "simulated time between checkpoints; 0: only at the end");
+}
+
+// What the text may name that is not there.
+template <int Dim>
+void check_names(Fields& fields, const Scene<Dim>& scene) {
+  std::vector<std::string> parts, solids;
+  for (const auto& solid : scene.solids) {
+    solids.push_back(solid.name);
+    for (const auto& part : solid.parts) {
+      const std::string group = part.name.substr(0, part.name.find('.'));
+      for (const auto& name : {part.name, group})
+        for (const auto& known : {name, solid.name + "/" + name})
+          if (std::find(parts.begin(), parts.end(), known) == parts.end()) parts.push_back(known);
+    }
+  }
+  const auto check_name = [&](const std::string& name, const std::vector<std::string>& known, const std::string& where) {
+    if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
+    std::string all;
+    for (const auto& one : known) all += (all.empty() ? "" : ", ") + one;
+    const std::string close = closest_name(name, known);
+    fields.reject(where.c_str(), "'" + name + "'",
+                  (close.empty() ? "" : "'" + close + "' (did you mean that?), or ") + ("one of " + all));
+  };
+  for (size_t i = 0; i < scene.pins.size(); ++i)
+    check_name(scene.pins[i].where.part, parts, "pins[" + std::to_string(i) + "].part");
+  for (const auto& load : scene.boundary_loads) check_name(load.where.part, parts, "loads");
+  for (const auto& load : scene.body_loads) check_name(load.solid, solids, "loads");
+  std::set<std::string> probes;
+  for (size_t i = 0; i < scene.probes.size(); ++i) {
+    const auto& probe = scene.probes[i];
+    const std::string where = "probes[" + std::to_string(i) + "]";
+    if (!probes.insert(probe.name).second) fields.reject(where.c_str(), "a second probe named '" + probe.name + "'", "a name of its own for each");
+    if (probe.name.find_first_of(",\"\n") != std::string::npos || probe.name.empty())
+      fields.reject((where + ".name").c_str(), "'" + probe.name + "'", "a name without commas, quotes and line ends");
+    if (probe.kind == ProbeKind::reaction && probe.pin >= int(scene.pins.size()))
+      fields.reject((where + ".pin").c_str(), std::to_string(probe.pin), "the index of one of the " + std::to_string(scene.pins.size()) + " pins, from 0");
+  }
+}
+
+template <int Dim>
+void describe_scene(Fields& fields, Scene<Dim>& scene, const ShapeLibrary<Dim>& shapes) {
+  fields.text("name", scene.name, "of the scene");
+  fields.text("description", scene.description, "one line");
+  int dimension = Dim;
+  fields.integer("dimension", dimension, 2, 3, "2 or 3, as the program");
+  if (dimension != Dim) fields.reject("dimension", std::to_string(dimension), std::to_string(Dim) + " in this program");
+  fields.require("solids");
+  fields.items<SceneSolid<Dim>>("solids", scene.solids, "one or more; their union is the body",
+                                [&](Fields& f, SceneSolid<Dim>& solid) { describe_solid(f, solid, shapes); });
+  fields.object("method", "the stages of the method", [&](Fields& f) { describe_method<Dim>(f, scene.method); });
+  fields.object("stability", "ties the map to the boundary", [&](Fields& f) {
+    f.number("stiffness", scene.stability_stiffness, at_least(0), "Pa/m", "gamma of the stability energy; 0: E of the first solid over the model's diagonal");
+    f.number("kinetic_length", scene.kinetic_length, at_least(0), "m", "l of the kinetic stability term (draft); 0: off");
+  });
+  fields.vector<Dim>("gravity", scene.gravity, "m/s^2", "acceleration of gravity");
+  describe_loads(fields, scene);
+  fields.items<Pin<Dim>>("pins", scene.pins, "control points held; those that coincide with one are held with it", describe_pin<Dim>);
+  fields.object("initial", "motion at the start (dynamic analysis)", [&](Fields& f) {
+    f.vector<Dim>("velocity", scene.velocity, "m/s", "of the whole body");
+    f.number("angular_velocity", scene.angular_velocity, any_number, "rad/s", "about the centroid (3D: about z)");
+  });
+  fields.items<Probe<Dim>>("probes", scene.probes, "values of interest", describe_probe<Dim>);
+  fields.object("analysis", "what to compute", [&](Fields& f) { describe_analysis(f, scene.analysis); });
+  fields.object("output", "what to write", [&](Fields& f) { describe_output(f, scene.output); });
+  if (!fields.reading()) return;
+  if (scene.solids.empty()) fields.reject("solids", "an empty list", "at least one solid");
+  std::set<std::string> names;
+  for (size_t i = 0; i < scene.solids.size(); ++i) {
+    if (scene.solids[i].name.empty()) scene.solids[i].name = "solid." + std::to_string(i + 1);
+    if (!names.insert(scene.solids[i].name).second)
+      fields.reject("solids", "two solids named '" + scene.solids[i].name + "'", "a name of its own for each");
+  }
+  for (size_t i = 0; i < scene.pins.size(); ++i)
+    if (!scene.pins[i].displacement.isZero(0) && scene.analysis.kind != AnalysisKind::statics)
+      fields.reject(("pins[" + std::to_string(i) + "].displacement").c_str(), "a prescribed displacement",
+                    "this only in a static analysis");
+  check_names(fields, scene);
+}
+
+}  // namespace
+
+template <int Dim>
+Scene<Dim> read_scene(const std::string& text, const std::string& file, const ShapeLibrary<Dim>& shapes,
+                      const std::vector<std::string>& overrides) {
+  Scene<Dim> scene;
+  read_json(text, file, overrides, [&](Fields& fields) { describe_scene(fields, scene, shapes); });
+  return scene;
+}
+
+template <int Dim>
+std::string write_scene(const Scene<Dim>& scene) {
+  Scene<Dim> copy = scene;
+  return write_json([&](Fields& fields) { describe_scene<Dim>(fields, copy, {}); });
+}
+
+template <int Dim>
+std::string document_scene(const ShapeLibrary<Dim>& shapes) {
+  Scene<Dim> defaults;
+  return document_fields([&](Fields& fields) { describe_scene(fields, defaults, shapes); });
+}
+
+template Scene<2> read_scene<2>(const std::string&, const std::string&, const ShapeLibrary<2>&, const std::vector<std::string>&);
+template Scene<3> read_scene<3>(const std::string&, const std::string&, const ShapeLibrary<3>&, const std::vector<std::string>&);
+template std::string write_scene<2>(const Scene<2>&);
+template std::string write_scene<3>(const Scene<3>&);
+template std::string document_scene<2>(const ShapeLibrary<2>&);
+template std::string document_scene<3>(const ShapeLibrary<3>&);
+
+}  // namespace sem

@@ -1,0 +1,295 @@
+#include "sem/scene/run.h"
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sem/base/error.h"
+#include "sem/base/version.h"
+#include "sem/scene/accuracy.h"
+#include "sem/scene/analysis.h"
+#include "sem/scene/checkpoint.h"
+#include "sem/scene/estimate.h"
+#include "sem/scene/files.h"
+#include "sem/scene/json_text.h"
+#include "sem/scene/monitor.h"
+#include "sem/scene/read_scene.h"
+#include "sem/solve/modes.h"
+
+namespace sem {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// What a checkpoint depends on: all settings but the outputs and how long the run goes on.
+template <int Dim>
+std::string settings_fingerprint(const Scene<Dim>& scene) {
+  Json settings = Json::parse(write_scene(scene));
+  settings.erase("output");
+  settings["method"].erase("threads");
+  settings["analysis"].erase("duration");
+  return fingerprint(settings.dump());
+}
+
+// The parts with the control points of a state, as a scene's `solids` has them.
+template <int Dim>
+std::string deformed_parts(const Scene<Dim>& scene, const Model<Dim>& model, const State& state) {
+  Json solids = Json::parse(write_scene(scene))["solids"];
+  int part = 0;
+  const auto& boundary = model.discretization.boundary;
+  for (auto& solid : solids)
+    for (auto& entry : solid["parts"]) {
+      auto& points = entry["control_points"];
+      for (int c = boundary.first_control[part]; c < boundary.first_control[part + 1]; ++c) {
+        const auto p = state.z.template segment<Dim>(Dim * c);
+        points[c - boundary.first_control[part]] = std::vector<double>(p.begin(), p.end());
+      }
+      ++part;
+    }
+  return json_text(Json{{"step", state.step}, {"time_s", state.time}, {"solids", solids}});
+}
+
+template <int Dim>
+class Run {
+ public:
+  Run(const Scene<Dim>& scene, const RunOptions& options, const FrameCallback<Dim>& on_frame)
+      : scene_(scene), options_(options), on_frame_(on_frame) {}
+
+  RunResult run() {
+    if (!options_.folder.empty()) make_folder(options_.folder);
+    progress(0, "preparing");
+    model_ = build_model(scene_, options_.file);
+    accuracy_ = measure_accuracy(*model_);
+    monitor_ = std::make_unique<Monitor<Dim>>(scene_, *model_);
+    state_ = model_->initial;
+    switch (scene_.analysis.kind) {
+      case AnalysisKind::statics: run_statics(); break;
+      case AnalysisKind::dynamics: run_dynamics(); break;
+      case AnalysisKind::modes: run_modes(); break;
+    }
+    if (scene_.output.error_estimate && result_.ok) {
+      progress(1, "estimating the error");
+      const auto start = std::chrono::steady_clock::now();
+      estimate_ = estimate_error(scene_, options_.file);
+      estimate_seconds_ = seconds_since(start);
+    }
+    write_results();
+    return result_;
+  }
+
+ private:
+  void progress(double share, const std::string& what) const {
+    if (options_.progress) options_.progress(share, what);
+  }
+
+  std::string path(const char* name) const { return options_.folder + "/" + name; }
+
+  void frame(const State& state) {
+    const auto start = std::chrono::steady_clock::now();
+    if (on_frame_) on_frame_(*model_, state, result_.n_frames);
+    ++result_.n_frames;
+    output_seconds_ += seconds_since(start);
+  }
+
+  void finish(const AnalysisReport& report, const std::string& done) {
+    report_ = report;
+    result_.ok = report.status == Status::converged;
+    result_.message = result_.ok ? done : std::string("stopped: ") + describe(report.status);
+  }
+
+  void run_statics() {
+    const AnalysisReport report = equilibrium(model_->system, scene_.analysis, model_->target, state_);
+    history_ = std::make_unique<Table>(monitor_->columns());
+    history_->add(monitor_->row(state_, {}, int(report.iterations), report.residual, 1));
+    frame(state_);
+    finish(report, "equilibrium after " + std::to_string(report.iterations) + " iterations");
+  }
+
+  void run_modes() {
+    const Modes modes = vibration_modes(model_->system, state_.z, scene_.analysis.n_modes);
+    AnalysisReport report;
+    report.status = modes.status;
+    history_ = std::make_unique<Table>(
+        std::vector<std::string>{"mode", "omega_rad_s", "frequency_Hz", "residual"});
+    for (int m = 0; m < modes.omega.size(); ++m) {
+      history_->add({m + 1.0, modes.omega[m], modes.omega[m] / (2 * M_PI), modes.residuals[m]});
+      report.residual = std::max(report.residual, modes.residuals[m]);
+      State shape = state_;
+      shape.step = m + 1;
+      const double largest = modes.shapes.col(m).cwiseAbs().maxCoeff();
+      shape.z += 0.1 * model_->discretization.boundary.box.diagonal() / largest * modes.shapes.col(m);
+      frame(shape);
+    }
+    finish(report, std::to_string(modes.omega.size()) + " modes");
+  }
+
+  void run_dynamics() {
+    const std::string settings = settings_fingerprint(scene_);
+    const double dt = scene_.analysis.time_step;
+    Checkpoint saved;
+    if (options_.resume) {
+      saved = read_checkpoint(path("checkpoint.bin"), settings);
+      state_ = saved.state;
+      result_.n_frames = saved.n_frames;
+      history_ = std::make_unique<Table>(saved.columns);
+      for (const auto& row : saved.history) history_->add(row);
+    } else {
+      history_ = std::make_unique<Table>(monitor_->columns());
+      history_->add(monitor_->row(state_, Eigen::VectorXd::Zero(state_.z.size()), 0, 0, 0));
+      next_frame();
+    }
+    const long last = n_steps(scene_.analysis);
+    const double interval = scene_.output.checkpoint_interval;
+    const long stride = interval > 0 ? std::max(1L, std::lround(interval / dt)) : last;
+    const AnalysisReport report =
+        march(model_->system, scene_.analysis, state_, [&](const State& now, const StepInfo& info) {
+          history_->add(monitor_->row(now, info.acceleration, info.iterations, info.residual, info.n_substeps));
+          next_frame();
+          if (now.step % stride == 0 && now.step < last) checkpoint(settings);
+          progress(double(now.step) / double(last), "simulating");
+        });
+    checkpoint(settings);
+    finish(report, std::to_string(state_.step) + " steps to t = " + exact_text(state_.time) + " s");
+  }
+
+  // Frame f belongs to the first step at or after f / frame_rate.
+  void next_frame() {
+    const double rate = scene_.output.frame_rate, dt = scene_.analysis.time_step;
+    if (rate > 0 && double(state_.step) >= result_.n_frames / (rate * dt) - 1e-9) frame(state_);
+  }
+
+  void checkpoint(const std::string& settings) {
+    if (options_.folder.empty()) return;
+    Checkpoint checkpoint{settings, state_, result_.n_frames, history_->columns(), {}};
+    for (int r = 0; r < history_->size(); ++r) checkpoint.history.push_back(history_->row(r));
+    write_file(path("history.csv"), history_->text());
+    write_checkpoint(path("checkpoint.bin"), checkpoint);
+  }
+
+  // ---- summary
+
+  double column_maximum(const char* name) const {
+    double maximum = 0;
+    for (size_t c = 0; c < history_->columns().size(); ++c)
+      if (history_->columns()[c] == name)
+        for (int r = 0; r < history_->size(); ++r) maximum = std::max(maximum, std::abs(history_->row(r)[c]));
+    return maximum;
+  }
+
+  // Largest change of the total energy, by the largest energy exchanged.
+  Json energy_json() const {
+    const size_t kinetic = 2, elastic = 3, load = 5, total = 6;
+    double drift = 0, exchanged = 0;
+    const auto& first = history_->row(0);
+    for (int r = 0; r < history_->size(); ++r) {
+      const auto& row = history_->row(r);
+      drift = std::max(drift, std::abs(row[total] - first[total]));
+      for (const size_t c : {kinetic, elastic, load}) exchanged = std::max(exchanged, std::abs(row[c] - first[c]));
+    }
+    const double last = history_->row(history_->size() - 1)[total] - first[total];
+    return {{"largest_change_J", drift},
+            {"last_change_J", last},
+            {"largest_exchanged_J", exchanged},
+            {"relative_drift", exchanged > 0 ? drift / exchanged : 0}};
+  }
+
+  Json cost_json() const {
+    Json cost = Json::array();
+    for (const auto& stage : model_->cost) cost.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
+    cost.push_back({{"stage", "analysis"}, {"seconds", report_.seconds}});
+    cost.push_back({{"stage", "frames"}, {"seconds", output_seconds_}});
+    if (scene_.output.error_estimate) cost.push_back({{"stage", "error estimate"}, {"seconds", estimate_seconds_}});
+    return cost;
+  }
+
+  Json estimate_json() const {
+    Json json;
+    json["meaning"] = "largest change when one setting is varied; an estimate, not a bound";
+    for (size_t c = 0; c < estimate_.columns.size(); ++c)
+      json["probes"].push_back({{"probe", estimate_.columns[c]},
+                                {"value", estimate_.value[c]},
+                                {"estimated_error", estimate_.estimate[c]}});
+    for (const auto& variation : estimate_.variations) {
+      Json entry = {{"setting", variation.setting}};
+      if (variation.failure.empty())
+        entry["largest_change"] = variation.change;
+      else
+        entry["no_result"] = variation.failure;
+      entry["seconds"] = variation.seconds;
+      json["variations"].push_back(entry);
+    }
+    return json;
+  }
+
+  Json summary() const {
+    const auto& d = model_->discretization;
+    Json json;
+    json["program"] = {{"version", version}, {"build_type", build_type}, {"compiler", compiler}};
+    json["status"] = name(report_.status);
+    json["message"] = result_.message;
+    json["sizes"] = {{"parts", d.boundary.n_parts()},
+                     {"unknowns", model_->n_unknowns()},
+                     {"boundary_samples", d.samples.size()},
+                     {"quadrature_points", d.quadrature.size()},
+                     {"origins", d.origins.members.size()},
+                     {"cutoff_m", d.theta.cutoff},
+                     {"stability_stiffness_Pa_per_m", model_->stability_stiffness},
+                     {"map_fill", d.interior.fill()},
+                     {"mass_kg", model_->total_mass()},
+                     {"frames", result_.n_frames}};
+    json["cost"] = cost_json();
+    json["solver"] = {{"steps", report_.n_steps},
+                      {"steps_retried", report_.n_retried},
+                      {"iterations", report_.iterations},
+                      {"worst_residual", report_.residual},
+                      {"factorizations", report_.counters.n_factorizations},
+                      {"hessians", report_.counters.n_hessians},
+                      {"psd_projections", report_.counters.n_psd_projections},
+                      {"condition_estimate", report_.condition_estimate},
+                      {"seconds_per_step", report_.n_steps > 0 ? report_.seconds / double(report_.n_steps) : 0}};
+    json["accuracy"] = to_json(accuracy_);
+    if (scene_.analysis.kind != AnalysisKind::modes)
+      json["accuracy"]["largest_boundary_mismatch"] = column_maximum("boundary_mismatch");
+    if (scene_.analysis.kind == AnalysisKind::dynamics) json["accuracy"]["energy"] = energy_json();
+    if (scene_.output.error_estimate && !estimate_.columns.empty()) json["accuracy"]["solution"] = estimate_json();
+    json["settings"] = Json::parse(write_scene(scene_));
+    return json;
+  }
+
+  void write_results() {
+    result_.summary_json = json_text(summary());
+    if (options_.folder.empty()) return;
+    write_file(path("history.csv"), history_->text());
+    write_file(path("final_state.json"), deformed_parts(scene_, *model_, state_));
+    write_file(path("summary.json"), result_.summary_json);
+  }
+
+  const Scene<Dim>& scene_;
+  const RunOptions& options_;
+  const FrameCallback<Dim>& on_frame_;
+  std::unique_ptr<Model<Dim>> model_;
+  std::unique_ptr<Monitor<Dim>> monitor_;
+  std::unique_ptr<Table> history_;
+  Accuracy<Dim> accuracy_;
+  ErrorEstimate estimate_;
+  AnalysisReport report_;
+  State state_;
+  RunResult result_;
+  double output_seconds_ = 0, estimate_seconds_ = 0;
+};
+
+}  // namespace
+
+template <int Dim>
+RunResult run_scene(const Scene<Dim>& scene, const RunOptions& options, const FrameCallback<Dim>& on_frame) {
+  return Run<Dim>(scene, options, on_frame).run();
+}
+
+template RunResult run_scene<2>(const Scene<2>&, const RunOptions&, const FrameCallback<2>&);
+template RunResult run_scene<3>(const Scene<3>&, const RunOptions&, const FrameCallback<3>&);
+
+}  // namespace sem

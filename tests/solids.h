@@ -1,0 +1,108 @@
+#pragma once
+// Small solids for the tests, in both dimensions, made without the shape libraries.
+
+#include <cmath>
+#include <vector>
+
+#include "sem/nurbs/nurbs.h"
+#include "sem/nurbs/refine.h"
+
+namespace sem::test {
+
+template <int Dim>
+using Parts = std::vector<Nurbs<Dim - 1, Dim>>;
+
+inline Nurbs<1, 2> segment(const Vec<2>& a, const Vec<2>& b) {
+  Nurbs<1, 2> line;
+  line.degree = {1};
+  line.knots = {std::vector<double>{0, 0, 1, 1}};
+  line.control_points.resize(2, 2);
+  line.control_points << a, b;
+  line.weights = Eigen::Vector2d::Ones();
+  return line;
+}
+
+/// Straight parts between consecutive points, closed.
+inline Parts<2> polygon(const std::vector<Vec<2>>& points) {
+  Parts<2> parts;
+  for (size_t i = 0; i < points.size(); ++i)
+    parts.push_back(segment(points[i], points[(i + 1) % points.size()]));
+  return parts;
+}
+
+/// Rational quadratic arc of a circle, less than half a turn.
+inline Nurbs<1, 2> arc(const Vec<2>& center, double radius, double from, double to) {
+  const double half = (to - from) / 2, middle = (from + to) / 2;
+  Nurbs<1, 2> curve;
+  curve.degree = {2};
+  curve.knots = {std::vector<double>{0, 0, 0, 1, 1, 1}};
+  curve.control_points.resize(2, 3);
+  curve.control_points << center + radius * Vec<2>(std::cos(from), std::sin(from)),
+      center + radius / std::cos(half) * Vec<2>(std::cos(middle), std::sin(middle)),
+      center + radius * Vec<2>(std::cos(to), std::sin(to));
+  curve.weights = Eigen::Vector3d(1, std::cos(half), 1);
+  return curve;
+}
+
+inline Parts<2> circle(const Vec<2>& center, double radius, int n_arcs = 4) {
+  Parts<2> parts;
+  for (int k = 0; k < n_arcs; ++k)
+    parts.push_back(arc(center, radius, 2 * M_PI * k / n_arcs, 2 * M_PI * (k + 1) / n_arcs));
+  return parts;
+}
+
+inline Nurbs<2, 3> bilinear(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>& d) {
+  Nurbs<2, 3> patch;
+  patch.degree = {1, 1};
+  patch.knots.fill({0, 0, 1, 1});
+  patch.control_points.resize(3, 4);
+  patch.control_points << a, b, c, d;
+  patch.weights = Eigen::Vector4d::Ones();
+  return patch;
+}
+
+/// Box from `lower` to `upper`: straight sides or bilinear faces; each cut in
+/// `n` along every parameter.
+template <int Dim>
+Parts<Dim> box(const Vec<Dim>& lower, const Vec<Dim>& upper, int n = 1);
+
+template <>
+inline Parts<2> box<2>(const Vec<2>& lower, const Vec<2>& upper, int n) {
+  std::vector<Vec<2>> corners = {lower, {upper[0], lower[1]}, upper, {lower[0], upper[1]}}, points;
+  for (int c = 0; c < 4; ++c)
+    for (int k = 0; k < n; ++k) points.push_back(corners[c] + double(k) / n * (corners[(c + 1) % 4] - corners[c]));
+  return polygon(points);
+}
+
+template <>
+inline Parts<3> box<3>(const Vec<3>& lower, const Vec<3>& upper, int n) {
+  Parts<3> parts;
+  const auto corner = [&](int axis, int side, int i, int j) {
+    Vec<3> X;
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    X[axis] = side ? upper[axis] : lower[axis];
+    X[b] = lower[b] + (upper[b] - lower[b]) * i / n;
+    X[c] = lower[c] + (upper[c] - lower[c]) * j / n;
+    return X;
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side)
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+          parts.push_back(bilinear(corner(axis, side, i, j), corner(axis, side, i + 1, j),
+                                   corner(axis, side, i, j + 1), corner(axis, side, i + 1, j + 1)));
+  return parts;
+}
+
+template <int Dim>
+Parts<Dim> unit_box(int n = 1) {
+  return box<Dim>(Vec<Dim>::Zero(), Vec<Dim>::Ones(), n);
+}
+
+/// Control points stacked as the unknown z.
+template <int Dim>
+Eigen::VectorXd stacked(const Points<Dim>& p) {
+  return Eigen::Map<const Eigen::VectorXd>(p.data(), p.size());
+}
+
+}  // namespace sem::test
