@@ -16,14 +16,14 @@ namespace {
 std::atomic<long> n_allocations{0};
 }
 
-// Counts for this whole test binary.
-void* operator new(std::size_t size) {
+// Counts for this whole test binary. Not inlined: GCC would warn of a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   ++n_allocations;
   if (void* memory = std::malloc(size ? size : 1)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 

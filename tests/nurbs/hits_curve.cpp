@@ -162,12 +162,12 @@ TEST_CASE("points between hits are inside or outside as parity says: random poly
     points.col(n) = points.col(0);
     const double y = int(random() % 6);
     const auto hits = all_hits(polyline(points), {{-1, y}, {1, 0}});
-    // Parity just above the line, where no vertex is met.
-    const auto above = all_hits(polyline(points), {{-1, y - 1e-7}, {1, 0}});
+    // Parity just below the line, where no vertex is met: 0 counts as +.
+    const auto below_line = all_hits(polyline(points), {{-1, y - 1e-7}, {1, 0}});
     for (double x = -0.5; x < 6; x += 0.5) {
       int a = 0, b = 0;
       for (const auto& hit : hits) a += hit.crosses && hit.t < x + 1 - 1e-5;
-      for (const auto& hit : above) b += hit.crosses && hit.t < x + 1 - 1e-5;
+      for (const auto& hit : below_line) b += hit.crosses && hit.t < x + 1 - 1e-5;
       bool near_hit = false;
       for (const auto& hit : hits) near_hit = near_hit || std::abs(hit.t - x - 1) < 1e-4;
       if (!near_hit) CHECK(a % 2 == b % 2);

@@ -290,7 +290,8 @@ class SurfaceHits {
         std::abs(normal.dot(line_.direction)) <= 1e-6 * normal.norm() * line_.direction.norm();
     hit.crosses = !hit.tangent;
     hit.along = false;
-    candidate.reach = reach;
+    // All points this close to a tangency are on the line to rounding.
+    candidate.reach = hit.tangent ? std::max(reach, 1e-6 * part_.box.diagonal()) : reach;
     scratch_.candidates.push_back(candidate);
     return true;
   }

@@ -52,7 +52,6 @@ Monitor<Dim>::Monitor(const Scene<Dim>& scene, const Model<Dim>& model) : scene_
   centroid_ = VectorXd::Zero(d.boundary.n_controls());
   for (const auto& block : d.interior.blocks)
     centroid_(block.columns) += block.value.transpose() * share(block.points) / share.sum();
-  boundary_measure_ = d.samples.weight.sum();
 }
 
 template <int Dim>
@@ -94,12 +93,17 @@ std::vector<double> Monitor<Dim>::probes(const State& state, const VectorXd& acc
   return values;
 }
 
+// From the differences themselves: the quadratic form p^T S p would cancel below 1e-8.
 template <int Dim>
 double Monitor<Dim>::boundary_mismatch(const State& state) const {
-  const auto& boundary = model_.discretization.boundary;
-  const Eigen::Map<const Points<Dim>> nodes(state.z.data(), Dim, boundary.n_controls());
-  const double integral = (nodes * model_.stability).cwiseProduct(nodes).sum();
-  return std::sqrt(std::max(0.0, integral) / boundary_measure_) / boundary.box.diagonal();
+  const auto& d = model_.discretization;
+  const Eigen::Map<const Points<Dim>> nodes(state.z.data(), Dim, d.boundary.n_controls());
+  Points<Dim> difference = evaluate(d.on_boundary, state.z);
+  for (int s = 0; s < d.samples.size(); ++s)
+    for (int e = d.samples.row[s]; e < d.samples.row[s + 1]; ++e)
+      difference.col(s) -= d.samples.value[e] * nodes.col(d.samples.column[e]);
+  const double integral = difference.colwise().squaredNorm().dot(d.samples.weight);
+  return std::sqrt(integral / d.samples.weight.sum()) / d.boundary.box.diagonal();
 }
 
 template <int Dim>

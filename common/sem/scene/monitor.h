@@ -38,7 +38,6 @@ class Monitor {
   std::vector<int> probe_material_;
   std::vector<std::string> probe_columns_;
   Eigen::VectorXd centroid_;  ///< n_columns: centroid = nodes * centroid_
-  double boundary_measure_;
 };
 
 }  // namespace sem

@@ -260,8 +260,32 @@ class Run {
     return json;
   }
 
+  // The lines that summary.json says at length.
+  std::string report_text() const {
+    double preparing = 0;
+    for (const auto& stage : model_->cost) preparing += stage.seconds;
+    char line[200];
+    std::string text;
+    const auto add = [&](const char* format, auto... values) {
+      std::snprintf(line, sizeof line, format, values...);
+      text += line;
+    };
+    add("cost:     %d unknowns, %d points; preparation %.3g s, %ld steps of %.3g ms (%s build)\n",
+        model_->n_unknowns(), model_->discretization.quadrature.size(), preparing, report_.n_steps,
+        report_.n_steps > 0 ? 1e3 * report_.seconds / double(report_.n_steps) : 0, build_type);
+    if (accuracy_.boundary.available)
+      add("accuracy: %s off by %.2g (relative), second moments by %.2g; ", DimTraits<Dim>::volume_name,
+          accuracy_.volume_error, accuracy_.second_moment_error);
+    add("uncovered %.2g\n", accuracy_.uncovered_share);
+    for (size_t c = 0; c < estimate_.columns.size(); ++c)
+      add("          %s = %.6g, estimated error %.2g\n", estimate_.columns[c].c_str(), estimate_.value[c],
+          estimate_.estimate[c]);
+    return text;
+  }
+
   void write_results() {
     result_.summary_json = json_text(summary());
+    result_.report = report_text();
     if (options_.folder.empty()) return;
     write_file(path("history.csv"), history_->text());
     write_file(path("final_state.json"), deformed_parts(scene_, *model_, state_));

@@ -23,6 +23,7 @@ using FrameCallback = std::function<void(const Model<Dim>&, const State&, int fr
 struct RunResult {
   bool ok = true;
   std::string message;       ///< one line for the user: what was done, or why the run stopped
+  std::string report;        ///< a few lines for the user: cost and accuracy
   std::string summary_json;  ///< what summary.json holds
   int n_frames = 0;
 };

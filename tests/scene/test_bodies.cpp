@@ -1,0 +1,179 @@
+// Whole bodies through the whole pipeline, in both dimensions.
+#include "bodies.h"
+#include "dims.h"
+#include "sem/scene/analysis.h"
+#include "sem/scene/monitor.h"
+#include "sem/solve/modes.h"
+
+using namespace sem;
+using Eigen::VectorXd;
+
+namespace {
+
+template <int Dim>
+size_t column(const Monitor<Dim>& monitor, const std::string& name) {
+  const auto columns = monitor.columns();
+  const auto at = std::find(columns.begin(), columns.end(), name);
+  REQUIRE(at != columns.end());
+  return size_t(at - columns.begin());
+}
+
+const Integrator all_integrators[] = {Integrator::linearly_implicit_euler, Integrator::implicit_euler,
+                                      Integrator::implicit_midpoint};
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("free fall: the centroid follows the parabola of its integrator", T, D2, D3) {
+  constexpr int Dim = T::value;
+  auto scene = test::box_scene<Dim>();
+  scene.gravity[1] = -10;
+  scene.analysis.duration = 0.2;
+  for (const Integrator integrator : all_integrators) {
+    CAPTURE(name(integrator));
+    scene.analysis.integrator = integrator;
+    const auto model = build_model(scene, "");
+    const Monitor<Dim> monitor(scene, *model);
+    State state = model->initial;
+    const auto report = march(model->system, scene.analysis, state, [](const State&, const StepInfo&) {});
+    CHECK(report.status == Status::converged);
+    const auto row = monitor.row(state, VectorXd::Zero(state.z.size()), 0, 0, 1);
+    // Euler: y_n = -g dt^2 n (n + 1) / 2; midpoint: exact.
+    const double dt = 0.01, n = 20;
+    const double fall = integrator == Integrator::implicit_midpoint ? 10 * 0.2 * 0.2 / 2 : 10 * dt * dt * n * (n + 1) / 2;
+    CHECK(row[column(monitor, "centroid_y_m")] == doctest::Approx(0.5 - fall).epsilon(1e-9));
+    CHECK(std::abs(row[column(monitor, "elastic_J")]) < 1e-12);
+    CHECK(row[column(monitor, "boundary_mismatch")] < 1e-9);
+  }
+}
+
+TEST_CASE_TEMPLATE("free flight: momentum to 1e-10 over 1000 steps; angular too for midpoint", T, D2, D3) {
+  constexpr int Dim = T::value;
+  auto scene = test::box_scene<Dim>(MaterialModel::neo_ref);
+  scene.velocity[0] = 1;
+  scene.angular_velocity = 2;
+  scene.analysis.duration = 10;
+  for (const Integrator integrator : all_integrators) {
+    CAPTURE(name(integrator));
+    scene.analysis.integrator = integrator;
+    const auto model = build_model(scene, "");
+    const Monitor<Dim> monitor(scene, *model);
+    State state = model->initial;
+    const auto row = [&] { return monitor.row(state, VectorXd::Zero(state.z.size()), 0, 0, 1); };
+    const auto first = row();
+    const auto report = march(model->system, scene.analysis, state, [](const State&, const StepInfo&) {});
+    CHECK(report.n_steps == 1000);
+    const auto last = row();
+    const double scale = model->total_mass();
+    for (const std::string axis : {"x", "y"}) {
+      const size_t c = column(monitor, "momentum_" + axis + "_kg_m_s");
+      CHECK(std::abs(last[c] - first[c]) < 1e-10 * scale);
+    }
+    const size_t turn = column(monitor, "angular_momentum_z_kg_m2_s");
+    const double lost = std::abs(last[turn] - first[turn]) / std::abs(first[turn] - 50);
+    if (integrator == Integrator::implicit_midpoint)
+      CHECK(std::abs(last[turn] - first[turn]) < 1e-10 * scale);
+    else
+      CHECK(lost > 1e-6);  // Euler's methods do lose it
+  }
+}
+
+TEST_CASE_TEMPLATE("a pinned swing keeps its pins, stays finite and exchanges energy", T, D2, D3) {
+  constexpr int Dim = T::value;
+  auto scene = test::box_scene<Dim>();
+  scene.gravity[1] = -10;
+  scene.pins.push_back(test::face_pin<Dim>(0));
+  scene.analysis.duration = 0.5;
+  scene.analysis.integrator = Integrator::implicit_midpoint;
+  const auto model = build_model(scene, "");
+  const Monitor<Dim> monitor(scene, *model);
+  State state = model->initial;
+  double lowest = 1;
+  const auto first = monitor.row(state, VectorXd::Zero(state.z.size()), 0, 0, 1);
+  const size_t total = column(monitor, "total_J"), load = column(monitor, "load_J");
+  double drift = 0, exchanged = 0;
+  const auto report = march(model->system, scene.analysis, state, [&](const State& now, const StepInfo& info) {
+    const auto row = monitor.row(now, info.acceleration, info.iterations, info.residual, 1);
+    for (const double value : row) CHECK(std::isfinite(value));
+    lowest = std::min(lowest, row[column(monitor, "centroid_y_m")]);
+    drift = std::max(drift, std::abs(row[total] - first[total]));
+    exchanged = std::max(exchanged, std::abs(row[load] - first[load]));
+  });
+  CHECK(report.status == Status::converged);
+  CHECK(lowest < 0.5 - 1e-3);
+  CHECK(drift < 0.05 * exchanged);
+  for (const int entry : model->pinned[0]) CHECK(state.z[entry] == model->system.rest[entry]);
+}
+
+TEST_CASE_TEMPLATE("static: a body turned at two faces' control points follows rigidly", T, D2, D3) {
+  constexpr int Dim = T::value;
+  auto scene = test::box_scene<Dim>(MaterialModel::neo_log);
+  scene.analysis.kind = AnalysisKind::statics;
+  scene.analysis.load_steps = 4;
+  scene.pins.push_back(test::face_pin<Dim>(0));
+  const auto model = build_model(scene, "");
+  Mat<Dim> R = Mat<Dim>::Identity();
+  R(0, 0) = R(1, 1) = std::cos(0.7);
+  R(1, 0) = std::sin(0.7);
+  R(0, 1) = -R(1, 0);
+  const Points<Dim> turned = R * rest_controls(model->discretization.boundary);
+  State state = model->initial;
+  const auto report = equilibrium(model->system, scene.analysis, test::stacked<Dim>(turned), state);
+  CHECK(report.status == Status::converged);
+  CHECK((state.z - test::stacked<Dim>(turned)).cwiseAbs().maxCoeff() < 1e-8);
+}
+
+TEST_CASE_TEMPLATE("reactions of the pins balance the loads", T, D2, D3) {
+  constexpr int Dim = T::value;
+  auto scene = test::box_scene<Dim>();
+  scene.analysis.kind = AnalysisKind::statics;
+  scene.gravity[1] = -1;
+  scene.pins.push_back(test::face_pin<Dim>(0));
+  scene.probes.push_back({"held", ProbeKind::reaction, Vec<Dim>::Zero(), 0});
+  const auto model = build_model(scene, "");
+  State state = model->initial;
+  CHECK(equilibrium(model->system, scene.analysis, model->target, state).status == Status::converged);
+  const auto force = Monitor<Dim>(scene, *model).probes(state, {});
+  CHECK(force[1] == doctest::Approx(100.0).epsilon(1e-8));  // rho V g upward
+  CHECK(std::abs(force[0]) < 1e-6);
+}
+
+TEST_CASE_TEMPLATE("a linear body marches with one factorisation and one Hessian", T, D2, D3) {
+  constexpr int Dim = T::value;
+  auto scene = test::box_scene<Dim>(MaterialModel::linear);
+  scene.gravity[1] = -1;
+  scene.pins.push_back(test::face_pin<Dim>(0));
+  scene.analysis.duration = 1;
+  const auto model = build_model(scene, "");
+  State state = model->initial;
+  const auto report = march(model->system, scene.analysis, state, [](const State&, const StepInfo&) {});
+  CHECK(report.n_steps == 100);
+  CHECK(report.counters.n_factorizations == 1);
+  CHECK(report.counters.n_hessians == 1);
+}
+
+TEST_CASE_TEMPLATE("a free body has its rigid modes at zero frequency", T, D2, D3) {
+  constexpr int Dim = T::value;
+  const auto scene = test::box_scene<Dim>(MaterialModel::linear);
+  const auto model = build_model(scene, "");
+  constexpr int n_rigid = Dim + DimTraits<Dim>::n_rotations;
+  const Modes modes = vibration_modes(model->system, model->initial.z, n_rigid + 1);
+  REQUIRE(modes.status == Status::converged);
+  for (int m = 0; m < n_rigid; ++m) CHECK(std::abs(modes.omega[m]) < 1e-4 * modes.omega[n_rigid]);
+}
+
+TEST_CASE_TEMPLATE("a run has the same bits with 1 and 2 threads", T, D2, D3) {
+  constexpr int Dim = T::value;
+  auto scene = test::box_scene<Dim>();
+  scene.gravity[1] = -10;
+  scene.pins.push_back(test::face_pin<Dim>(0));
+  scene.analysis.duration = 0.1;
+  VectorXd z[2];
+  for (int t = 0; t < 2; ++t) {
+    scene.method.n_threads = t + 1;
+    const auto model = build_model(scene, "");
+    State state = model->initial;
+    march(model->system, scene.analysis, state, [](const State&, const StepInfo&) {});
+    z[t] = state.z;
+  }
+  CHECK(z[0] == z[1]);
+}
