@@ -1,5 +1,6 @@
 #include "sem/method/origins.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -8,6 +9,7 @@ namespace sem {
 namespace {
 
 constexpr double shared_weight = 1e-4;  // a part belongs to a point's set above this weight
+constexpr double flat = 1e-6;           // relative thickness of a set that lies on a line or plane
 constexpr double tie = 1e-9;            // relative difference of two sums that are equal
 
 using Set = std::vector<int>;
@@ -27,6 +29,20 @@ std::map<Set, std::map<int, double>> candidates(const BlendingWeights<Dim>& weig
       if (weights.w[e] > shared_weight) sum[weights.part[e]] += quadrature_weight[k] * weights.w[e];
   }
   return sums;
+}
+
+// True if all samples of the parts lie on one line (2D) or plane (3D).
+template <int Dim>
+bool is_flat(const Set& set, const Samples<Dim>& samples) {
+  const Vec<Dim> center = origins_from_sets<Dim>({set}, {}, samples).position.col(0);
+  Mat<Dim> second = Mat<Dim>::Zero();
+  for (const int i : set)
+    for (int s = samples.first[i]; s < samples.first[i + 1]; ++s) {
+      const Vec<Dim> r = samples.position.col(s) - center;
+      second += samples.weight[s] * r * r.transpose();
+    }
+  const Vec<Dim> spread = Eigen::SelfAdjointEigenSolver<Mat<Dim>>(second, Eigen::EigenvaluesOnly).eigenvalues();
+  return spread[0] <= flat * flat * spread[Dim - 1];
 }
 
 }  // namespace
@@ -60,7 +76,8 @@ Origins<Dim> choose_origins(OriginChoice choice, const BlendingWeights<Dim>& wei
   if (choice == OriginChoice::one)
     return origins_from_sets<Dim>({all}, std::vector<int>(n_parts, 0), samples);
 
-  const auto sums = candidates(weights, quadrature_weight);
+  auto sums = candidates(weights, quadrature_weight);
+  std::erase_if(sums, [&](const auto& candidate) { return is_flat(candidate.first, samples); });
   std::vector<Set> chosen(n_parts, all);
   Set ties, fallback;
   for (int i = 0; i < n_parts; ++i) {

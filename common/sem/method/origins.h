@@ -24,7 +24,9 @@ struct Origins {
 };
 
 /// Candidates: quadrature points grouped by the set of parts with w > 1e-4,
-/// sets of two or more. Part i takes the candidate with the largest sum over
+/// sets of two or more; not sets that lie on one line or plane, which would put
+/// the origin there and leave a direction of the linear fit open (our addition:
+/// with a cutoff of half the height, two neighbours on the edge of a beam). Part i takes the candidate with the largest sum over
 /// the group of v_k w_i: the min-cost flow of the published method decouples,
 /// as no capacity binds. Sums that agree to 1e-9 are a tie, won by the larger
 /// set, then by the lexicographically smaller one. A part in no candidate

@@ -42,6 +42,7 @@ AnalysisReport march(const System& system, const Analysis& analysis, State& stat
     report.status = step.status;
     if (step.status != Status::converged) break;
     ++report.n_steps;
+    state.time = double(state.step) * analysis.time_step;  // not a sum of rounded steps
     report.n_retried += step.n_substeps > 1;
     acceleration = (state.v - before) / analysis.time_step;
     on_step(state, {acceleration, step.iterations, step.residual, step.n_substeps});

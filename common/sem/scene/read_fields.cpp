@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 
 #include "sem/base/error.h"
@@ -15,8 +16,10 @@ using Json = nlohmann::json;
 // A value as it stands in the file, shortened.
 std::string shown(const Json& value) {
   std::string text = value.dump();
-  if (text.size() > 60) text = text.substr(0, 57) + "...";
-  return text;
+  if (text.size() <= 60) return text;
+  size_t end = 57;
+  while (end > 0 && (text[end] & 0xC0) == 0x80) --end;  // not inside a UTF-8 character
+  return text.substr(0, end) + "...";
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -117,7 +120,13 @@ class FieldReader : public Fields {
   bool optional(const char* key, bool) override { return find(key) != nullptr; }
 
   void require(const char* key) override {
-    if (!find(key)) throw InputError(file_, path(key), "nothing", "this field is required");
+    if (find(key)) return;
+    std::vector<std::string> others;
+    for (const auto& [other, value] : object_.items())
+      if (!known_.count(other)) others.push_back(other);
+    const std::string close = closest_name(key, others);
+    throw InputError(file_, path(key), close.empty() ? "nothing" : "nothing, but '" + close + "'",
+                     "this field is required");
   }
 
   void reject(const char* key, const std::string& found, const std::string& allowed) override {
@@ -197,24 +206,70 @@ std::string place(const std::string& text, size_t byte) {
   return "line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 
+// Follows the parser through the text: rejects what the parsed value no longer
+// shows (a key twice) and nesting that no scene needs.
+class Strictness {
+ public:
+  explicit Strictness(const std::string& file) : file_(file) {}
+
+  void see(Json::parse_event_t event, const Json& parsed) {
+    using Event = Json::parse_event_t;
+    if (event == Event::object_start || event == Event::array_start) {
+      open_.push_back({event == Event::array_start, 0, "", {}});
+      if (open_.size() > 100) throw InputError(file_, path(), "more than 100 levels of brackets", "fewer");
+    } else if (event == Event::key) {
+      open_.back().key = parsed.get<std::string>();
+      if (!open_.back().keys.insert(open_.back().key).second)
+        throw InputError(file_, path(), "this key twice in one object", "each key once");
+    } else {
+      if (event != Event::value) open_.pop_back();
+      if (!open_.empty()) ++open_.back().index;
+    }
+  }
+
+ private:
+  struct Level {
+    bool is_list;
+    size_t index;  // of the item that comes next
+    std::string key;
+    std::set<std::string> keys;
+  };
+
+  std::string path() const {
+    std::string path;
+    for (const Level& level : open_)
+      if (level.is_list)
+        path += "[" + std::to_string(level.index) + "]";
+      else if (!level.key.empty())
+        path += (path.empty() ? "" : ".") + level.key;
+    return path;
+  }
+
+  const std::string& file_;
+  std::vector<Level> open_;
+};
+
 Json parse(const std::string& text, const std::string& file) {
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
-  const auto check = [&](int, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::object_start) keys.emplace_back();
-    if (event == Json::parse_event_t::object_end) keys.pop_back();
-    if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
-      throw InputError(file, parsed.get<std::string>(), "this key twice in one object", "each key once");
+  Strictness strictness(file);
+  const auto see = [&](int, Json::parse_event_t event, Json& parsed) {
+    strictness.see(event, parsed);
     return true;
   };
+  const auto fail = [&](const std::string& where, std::string what) {
+    const size_t code = what.find("] ");  // "[json.exception...] "
+    if (code != std::string::npos) what = what.substr(code + 2);
+    const size_t colon = what.find(": ");  // "parse error at line 1, column 2: "
+    if (!where.empty() && colon != std::string::npos) what = what.substr(colon + 2);
+    throw InputError(file, where, "no valid JSON (" + what + ")", "JSON; comments // and /* */");
+  };
   try {
-    return Json::parse(text, check, true, true);
+    return Json::parse(text, see, true, true);
   } catch (const Json::parse_error& error) {
-    std::string what = error.what();
-    what = what.substr(std::min(what.size(), what.find(": ") == std::string::npos ? 0 : what.find(": ") + 2));
-    throw InputError(file, place(text, error.byte), "no valid JSON (" + what + ")", "JSON; comments // and /* */");
-  } catch (const Json::exception& error) {
-    throw InputError(file, "", std::string("no valid JSON (") + error.what() + ")", "JSON; comments // and /* */");
+    fail(place(text, error.byte), error.what());
+  } catch (const Json::exception& error) {  // a number too large
+    fail("", error.what());
   }
+  return {};
 }
 
 // Follows "solids[0].material.density" to the value it names, making objects on the way.
@@ -222,23 +277,18 @@ Json& resolve(Json& root, const std::string& path, const std::string& pair) {
   const auto fail = [&](const std::string& found) {
     throw InputError("--set", pair, found, "key=value with the keys of a scene, as in solids[0].material.density=10");
   };
+  static const std::regex path_form(R"(\w+(\[\d{1,6}\])*(\.\w+(\[\d{1,6}\])*)*)"), step_form(R"(\w+|\[\d+\])");
+  if (!std::regex_match(path, path_form)) fail("'" + path + "', no valid path");
   Json* at = &root;
-  for (size_t i = 0; i < path.size();) {
-    if (path[i] == '[') {
-      const size_t close = path.find(']', i);
-      if (close == std::string::npos || close == i + 1 ||
-          path.find_first_not_of("0123456789", i + 1) != close || close - i > 7)
-        fail("'" + path + "', no valid path");
-      const size_t index = std::stoul(path.substr(i + 1, close - i - 1));
+  for (std::sregex_iterator step(path.begin(), path.end(), step_form), end; step != end; ++step) {
+    const std::string key = step->str();
+    if (key[0] == '[') {
+      const size_t index = std::stoul(key.substr(1));
       if (!at->is_array() || index >= at->size()) fail("index " + std::to_string(index) + ", which is not in the scene");
       at = &(*at)[index];
-      i = close + 1;
-      if (i < path.size() && path[i] == '.') ++i;
     } else {
-      const size_t end = std::min(path.find_first_of(".[", i), path.size());
-      if (end == i || (!at->is_object() && !at->is_null())) fail("'" + path + "', no valid path");
-      at = &(*at)[path.substr(i, end - i)];
-      i = end < path.size() && path[end] == '.' ? end + 1 : end;
+      if (!at->is_object() && !at->is_null()) fail("'" + path + "', where '" + key + "' is no key of an object");
+      at = &(*at)[key];
     }
   }
   return *at;
@@ -250,7 +300,10 @@ void apply_override(Json& root, const std::string& pair) {
     throw InputError("--set", pair, "no key=value", "key=value, as in analysis.time_step=0.005");
   const std::string value = pair.substr(equals + 1);
   Json parsed = Json::parse(value, nullptr, false);
-  if (parsed.is_discarded()) parsed = value;  // a bare word is a text
+  if (!parsed.is_discarded())
+    parsed = parse(value, "--set " + pair);  // strictly
+  else  // a bare word is a text; bytes that are no UTF-8 could not be written back
+    parsed = Json::parse(Json(value).dump(-1, ' ', false, Json::error_handler_t::replace));
   resolve(root, pair.substr(0, equals), pair) = parsed;
 }
 

@@ -260,6 +260,17 @@ class Run {
     return json;
   }
 
+  // ", estimated error ..." of a value, if there is one.
+  std::string estimated(const std::string& column) const {
+    for (size_t c = 0; c < estimate_.columns.size(); ++c)
+      if (estimate_.columns[c] == column) {
+        char text[60];
+        std::snprintf(text, sizeof text, ", estimated error %.2g", estimate_.estimate[c]);
+        return text;
+      }
+    return "";
+  }
+
   // The lines that summary.json says at length.
   std::string report_text() const {
     double preparing = 0;
@@ -277,9 +288,14 @@ class Run {
       add("accuracy: %s off by %.2g (relative), second moments by %.2g; ", DimTraits<Dim>::volume_name,
           accuracy_.volume_error, accuracy_.second_moment_error);
     add("uncovered %.2g\n", accuracy_.uncovered_share);
-    for (size_t c = 0; c < estimate_.columns.size(); ++c)
-      add("          %s = %.6g, estimated error %.2g\n", estimate_.columns[c].c_str(), estimate_.value[c],
-          estimate_.estimate[c]);
+    const size_t n_probes = scene_.analysis.kind == AnalysisKind::modes ? 0 : monitor_->probe_columns().size();
+    for (size_t c = history_->columns().size() - n_probes; c < history_->columns().size(); ++c)
+      add("          %s = %.6g%s\n", history_->columns()[c].c_str(), history_->row(history_->size() - 1)[c],
+          estimated(history_->columns()[c]).c_str());
+    if (scene_.analysis.kind == AnalysisKind::modes)
+      for (int m = 0; m < history_->size(); ++m)
+        add("          mode %d: omega = %.6g rad/s%s\n", m + 1, history_->row(m)[1],
+            estimated("mode_" + std::to_string(m + 1) + "_rad_s").c_str());
     return text;
   }
 

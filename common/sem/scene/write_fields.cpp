@@ -139,7 +139,7 @@ bool is_flat(const Json& json) {
 
 void append(const Json& json, int indent, std::string& out) {
   if (!json.is_structured() || json.empty() || is_flat(json)) {
-    out += json.dump();
+    out += json.dump(-1, ' ', false, Json::error_handler_t::replace);  // names may be no UTF-8
     return;
   }
   const std::string margin(indent + 2, ' ');
