@@ -6,9 +6,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 
-#include "picture/frame.h"
-#include "scenes/builtin.h"
+#include "src2d/picture/frame.h"
+#include "src2d/scenes/builtin.h"
 #include "sem/base/error.h"
 #include "sem/base/version.h"
 #include "sem/draw/frame_writer.h"
@@ -18,7 +19,7 @@
 #include "sem/scene/info.h"
 #include "sem/scene/read_scene.h"
 #include "sem/scene/run.h"
-#include "shapes/shape_fields.h"
+#include "src2d/shapes/shape_fields.h"
 
 namespace {
 
@@ -34,7 +35,7 @@ constexpr const char* overview = R"(sem2d: elastic solids in the plane, describe
   sem2d export NAME > mine.json                       a built-in scene, to start your own from
   sem2d schema                                        every key of a scene file, with units and defaults
 
-SCENE is a JSON file or the name of a built-in scene; try: sem2d run square
+SCENE is a JSON file or the name of a built-in scene; try: sem2d run blob
 )";
 
 struct SceneText {
@@ -42,7 +43,8 @@ struct SceneText {
 };
 
 SceneText find_scene(const std::string& scene) {
-  if (fs::is_regular_file(scene)) return {read_file(scene), scene};
+  std::error_code error;
+  if (fs::is_regular_file(scene, error)) return {read_file(scene), scene};
   std::vector<std::string> names;
   for (const auto& builtin : builtin_scenes()) {
     if (builtin.name == scene) return {builtin.text, scene};
@@ -93,7 +95,8 @@ std::string frame_name(int frame) {
 
 // Frames of an earlier, longer run into the same folder.
 void remove_stale_frames(const fs::path& folder, int n_frames) {
-  for (int frame = n_frames; fs::remove(folder / frame_name(frame)); ++frame) {
+  std::error_code error;
+  for (int frame = n_frames; fs::remove(folder / frame_name(frame), error); ++frame) {
   }
 }
 
@@ -102,30 +105,28 @@ int run(const std::string& name, std::string folder, const std::vector<std::stri
   const SceneText source = find_scene(name);
   const Scene<2> scene = load(source, overrides);
   if (folder.empty()) folder = "out/" + fs::path(source.file).stem().string();
-  make_folder(folder);
   const fs::path frames = fs::path(folder) / "frames";
-  Progress progress;
-  RunOptions options{source.file, folder, resume, std::ref(progress)};
-
   std::unique_ptr<RasterCanvas> canvas;
   FrameWriter writer;
   FramePainter painter(scene);
   FrameCallback<2> on_frame;
-  if (draw) {
-    make_folder(frames.string());
+  if (draw)
     on_frame = [&](const Model<2>& model, const State& state, int frame) {
-      if (!canvas) canvas = std::make_unique<RasterCanvas>(scene.output.width, scene.output.height);
+      if (!canvas) {
+        make_folder(frames.string());
+        canvas = std::make_unique<RasterCanvas>(scene.output.width, scene.output.height);
+      }
       canvas->clear();
       painter.draw(*canvas, model, state);
       writer.write((frames / frame_name(frame)).string(), canvas->finish());
     };
-  }
   RunResult result;
   {
-    result = run_scene(scene, options, on_frame);
+    Progress progress;  // ends its line before the results are printed
+    result = run_scene(scene, {source.file, folder, resume, std::ref(progress)}, on_frame);
     writer.finish();
   }
-  if (draw && result.ok) remove_stale_frames(frames, result.n_frames);
+  if (draw) remove_stale_frames(frames, result.n_frames);
   std::cout << scene.name << ": " << result.message << "\n"
             << "wrote " << folder << "/: history.csv, summary.json, final_state.json";
   if (draw && result.n_frames > 0) std::cout << ", frames/ (" << result.n_frames << " of them)";
@@ -167,10 +168,12 @@ int main_program(int argc, char** argv) {
   app.set_version_flag("--version", std::string("sem2d ") + version + " (" + build_type + ")");
   app.require_subcommand(1);
   std::string scene, folder, builtin;
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides, more_overrides;
   bool json = false, resume = false, no_frames = false;
   const auto add_overrides = [&](CLI::App* command) {
-    command->add_option("--set", overrides, "key=value, as in analysis.time_step=0.005 (repeatable)")->allow_extra_args(false);
+    command->add_option("--set", overrides, "key=value, as in analysis.time_step=0.005; any number of them")
+        ->allow_extra_args(false);
+    command->add_option("OVERRIDES", more_overrides, "more of them, with or without another --set");
   };
   auto* run_command = app.add_subcommand("run", "simulate a scene");
   run_command->add_option("SCENE", scene, "JSON file or built-in name")->required();
@@ -192,6 +195,7 @@ int main_program(int argc, char** argv) {
     const int code = app.exit(error);
     return code == 0 ? 0 : 2;
   }
+  overrides.insert(overrides.end(), more_overrides.begin(), more_overrides.end());
   if (*run_command) return run(scene, folder, overrides, resume, !no_frames);
   if (*info_command) return info(scene, overrides, json);
   if (*scenes_command) return list_scenes();

@@ -25,9 +25,9 @@ const BuiltinScene& builtin(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("built-in scenes: the square first, all named and described") {
+TEST_CASE("built-in scenes: the blob first, all named and described") {
   REQUIRE(builtin_scenes().size() == 10);
-  CHECK(builtin_scenes()[0].name == "square");
+  CHECK(builtin_scenes()[0].name == "blob");
   std::set<std::string> names;
   for (const auto& builtin : builtin_scenes()) {
     CAPTURE(builtin.name);

@@ -50,6 +50,12 @@ std::vector<std::uint8_t> physical_size_chunk(double dots_per_inch) {
 
 }  // namespace
 
+Image viridis_ramp() {
+  Image ramp(1, 256);
+  for (int row = 0; row < 256; ++row) ramp.set(0, row, colors::viridis(1 - row / 255.0));
+  return ramp;
+}
+
 void Image::set(int column, int row, const Color& color) {
   const double parts[] = {color.r, color.g, color.b};
   for (int i = 0; i < 3; ++i)

@@ -27,6 +27,9 @@ struct Image {
   void set(int column, int row, const Color& color);
 };
 
+/// A column of 256 pixels of the colour map viridis, its largest value on top: for colour bars.
+Image viridis_ramp();
+
 /// The bytes of a PNG file (8-bit RGB) that states `dots_per_inch` in its pHYs chunk.
 std::vector<std::uint8_t> encode_png(const Image& image, double dots_per_inch = 96);
 

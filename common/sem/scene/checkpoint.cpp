@@ -1,7 +1,7 @@
 #include "sem/scene/checkpoint.h"
 
-#include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 
@@ -83,10 +83,15 @@ Checkpoint parse(const std::string& body) {
   checkpoint.state.time = in.number();
   checkpoint.state.z = vector(in.numbers());
   checkpoint.state.v = vector(in.numbers());
-  checkpoint.n_frames = int(in.integer());
   for (auto n = in.count(); n > 0; --n) checkpoint.columns.push_back(in.text());
-  for (auto n = in.count(); n > 0; --n) checkpoint.history.push_back(in.numbers());
-  if (!in.at_end()) throw std::out_of_range("trailing bytes");
+  for (auto n = in.count(); n > 0; --n) {
+    checkpoint.history.push_back(in.numbers());
+    if (checkpoint.history.back().size() != checkpoint.columns.size()) throw std::out_of_range("row");
+  }
+  const State& state = checkpoint.state;
+  if (!in.at_end() || state.step < 0 || state.z.size() != state.v.size() || !state.z.allFinite() ||
+      !state.v.allFinite())
+    throw std::out_of_range("state");
   return checkpoint;
 }
 
@@ -107,7 +112,6 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
   out.number(checkpoint.state.time);
   out.numbers(checkpoint.state.z);
   out.numbers(checkpoint.state.v);
-  out.integer(checkpoint.n_frames);
   out.integer(std::int64_t(checkpoint.columns.size()));
   for (const auto& column : checkpoint.columns) out.text(column);
   out.integer(std::int64_t(checkpoint.history.size()));
@@ -121,7 +125,7 @@ Checkpoint read_checkpoint(const std::string& path, const std::string& settings)
   if (file.size() < head || !file.starts_with(magic))
     throw InputError(path, "header", "no checkpoint of this version", "a checkpoint of this version of sem");
   const std::string body = file.substr(head);
-  if (file.substr(sizeof magic - 1, 16) != fingerprint(body))
+  if (file.substr(sizeof magic - 1, 17) != fingerprint(body) + "\n")
     throw InputError(path, "checksum", "a damaged checkpoint", "the file as it was written");
   Checkpoint checkpoint;
   try {

@@ -11,9 +11,8 @@ namespace sem {
 struct Checkpoint {
   std::string settings;       ///< fingerprint of the scene that made it
   State state;
-  int n_frames = 0;           ///< frames written so far
   std::vector<std::string> columns;            ///< of the history
-  std::vector<std::vector<double>> history;    ///< all rows so far
+  std::vector<std::vector<double>> history;    ///< all rows so far, as long as the columns
 };
 
 /// 16 hexadecimal digits (FNV-1a, 64 bits).

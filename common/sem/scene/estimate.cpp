@@ -98,17 +98,17 @@ std::vector<Change<Dim>> changes_for(const Scene<Dim>& scene, const Model<Dim>& 
 template <int Dim>
 ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file) {
   ErrorEstimate result;
+  const bool modes = scene.analysis.kind == AnalysisKind::modes;
+  if (!modes && scene.probes.empty()) return result;
   const auto model = build_model(scene, file);
   const Rows original = values_of(scene, file, 1);
   if (original.empty()) return result;
   result.value = original.back();
-  result.columns = Monitor<Dim>(scene, *model).probe_columns();
-  if (scene.analysis.kind == AnalysisKind::modes) {
-    result.columns.clear();
+  if (modes)
     for (size_t m = 1; m <= result.value.size(); ++m)
       result.columns.push_back("mode_" + std::to_string(m) + "_rad_s");
-  }
-  if (result.columns.empty()) return result;
+  else
+    result.columns = Monitor<Dim>(scene, *model).probe_columns();
   result.estimate.assign(result.value.size(), 0);
   for (const auto& change : changes_for(scene, *model)) {
     Variation variation;
@@ -124,7 +124,7 @@ ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file) {
           variation.change[c] = std::max(variation.change[c], std::abs(rows[t][c] - original[t][c]));
       for (size_t c = 0; c < variation.change.size(); ++c)
         result.estimate[c] = std::max(result.estimate[c], variation.change[c]);
-    } catch (const std::runtime_error& error) {
+    } catch (const std::exception& error) {  // no memory for twice the points, too
       variation.failure = error.what();
     }
     variation.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -26,7 +26,8 @@ struct ErrorEstimate {
   std::vector<Variation> variations;
 };
 
-/// Repeats the analysis with: twice the rays and points; every part halved;
+/// Nothing to judge (no probes, and no modes): no columns, and nothing is run. Otherwise
+/// repeats the analysis with: twice the rays and points; every part halved;
 /// twice gamma; 1.5 times the cutoff; one polynomial degree more (one less at
 /// degree 4); half the time step (dynamics).
 template <int Dim>

@@ -16,14 +16,13 @@ namespace fs = std::filesystem;
 void write_file(const std::string& path, const std::string& content) {
   const std::string temporary = path + ".part";
   std::error_code error;
-  {
-    std::ofstream out(temporary, std::ios::binary);
-    out.write(content.data(), std::streamsize(content.size()));
-    out.close();
-    if (!out) {
-      fs::remove(temporary, error);
-      throw InputError(path, "", "a file that cannot be written", "a writable folder with room");
-    }
+  std::ofstream out(temporary, std::ios::binary);
+  const bool opened = out.is_open();
+  out.write(content.data(), std::streamsize(content.size()));
+  out.close();
+  if (!out) {
+    if (opened) fs::remove(temporary, error);
+    throw InputError(path, "", "a file that cannot be written", "a writable folder with room");
   }
   fs::rename(temporary, path, error);
   if (error) {
@@ -45,8 +44,8 @@ std::string read_file(const std::string& path) {
 void make_folder(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error || !fs::is_directory(path))
-    throw InputError("", "--out", "'" + path + "', which cannot be created", "a writable folder");
+  if (!fs::is_directory(path, error))
+    throw InputError("", "--out", "'" + path + "', which is no folder and cannot be made one", "a writable folder");
   const fs::path probe = fs::path(path) / ".sem_write_test";
   std::ofstream out(probe);
   const bool writable = bool(out);
@@ -65,7 +64,6 @@ Table::Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
 
 void Table::add(const std::vector<double>& row) {
   assert(row.size() == columns_.size());
-  for ([[maybe_unused]] const double value : row) assert(std::isfinite(value));
   rows_.push_back(row);
 }
 
@@ -76,7 +74,7 @@ std::string Table::text() const {
   for (const auto& row : rows_) {
     for (size_t c = 0; c < row.size(); ++c) {
       if (c) out += ',';
-      out += exact_text(row[c]);
+      if (std::isfinite(row[c])) out += exact_text(row[c]);
     }
     out += '\n';
   }

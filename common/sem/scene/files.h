@@ -6,8 +6,8 @@
 
 namespace sem {
 
-/// Writes to a temporary name in the same folder, then renames: a reader never
-/// sees half a file, and an old file survives a failure. Throws InputError.
+/// Writes to a temporary name in the same folder (path.part), then renames: a reader
+/// never sees half a file, and an old file survives a failure. Throws InputError.
 void write_file(const std::string& path, const std::string& content);
 
 /// The whole file. Throws InputError (field empty) if it cannot be read.
@@ -20,11 +20,12 @@ void make_folder(const std::string& path);
 /// The shortest text that reads back as the same number.
 std::string exact_text(double value);
 
-/// A table of numbers with named columns, comma separated.
+/// A table of numbers with named columns, comma separated. A value that is not finite (the
+/// stress at a probe where the body is inverted) is an empty cell: it is no number.
 class Table {
  public:
   explicit Table(std::vector<std::string> columns);
-  void add(const std::vector<double>& row);  ///< asserts that the sizes agree and all is finite
+  void add(const std::vector<double>& row);  ///< asserts that the sizes agree
   int size() const { return int(rows_.size()); }
   const std::vector<std::string>& columns() const { return columns_; }
   const std::vector<double>& row(int r) const { return rows_[r]; }

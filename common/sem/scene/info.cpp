@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "sem/scene/accuracy.h"
@@ -83,15 +84,35 @@ Json info_json(const Scene<Dim>& scene, const Model<Dim>& model) {
   return json;
 }
 
+// Lines "key: value", indented; items of a list as [0], [1], ... as --set names them.
+void append_lines(const Json& json, int indent, std::string& text) {
+  for (const auto& [key, value] : json.items()) {
+    text += std::string(indent, ' ') + (json.is_array() ? "[" + key + "]" : key) + ":";
+    const bool nested = value.is_object() || (value.is_array() && !value.empty() && value[0].is_structured());
+    if (nested) {
+      text += "\n";
+      append_lines(value, indent + 2, text);
+    } else if (value.is_number_float()) {
+      char number[40];
+      std::snprintf(number, sizeof number, " %.6g\n", value.get<double>());
+      text += number;
+    } else {
+      text += " " + (value.is_string() ? value.get<std::string>() : value.dump()) + "\n";
+    }
+  }
+}
+
 }  // namespace
 
 template <int Dim>
 std::string model_info(const Scene<Dim>& scene, const Model<Dim>& model, bool json) {
   Json info = info_json(scene, model);
-  if (!json)  // the parts would hide all the rest
-    for (auto& solid : info["settings"]["solids"])
-      solid["parts"] = std::to_string(solid["parts"].size()) + " parts (shown by --json)";
-  return json_text(info);
+  if (json) return json_text(info);
+  for (auto& solid : info["settings"]["solids"])  // the parts would hide all the rest
+    solid["parts"] = std::to_string(solid["parts"].size()) + " parts (shown by --json)";
+  std::string text;
+  append_lines(info, 0, text);
+  return text;
 }
 
 template std::string model_info<2>(const Scene<2>&, const Model<2>&, bool);

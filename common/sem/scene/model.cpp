@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <set>
 
 #include "sem/base/error.h"
@@ -89,9 +90,8 @@ class Builder {
   void make_operators() {
     const auto& d = model_->discretization;
     model_->stability = stability_matrix(d.on_boundary, d.samples);
-    model_->stability_stiffness = scene_.stability_stiffness > 0
-                                      ? scene_.stability_stiffness
-                                      : scene_.solids[0].material.youngs_modulus / d.boundary.box.diagonal();
+    model_->stability_stiffness =
+        scene_.stability_stiffness > 0 ? scene_.stability_stiffness : default_stiffness();
     model_->mass = mass_matrix(d.interior, model_->point_mass);
     if (scene_.kinetic_length > 0) {
       Samples<Dim> dense = d.samples;
@@ -106,6 +106,15 @@ class Builder {
     system.mass = expand(model_->mass, Dim);
     const Points<Dim> p = rest_controls(d.boundary);
     system.rest = Eigen::Map<const VectorXd>(p.data(), p.size());
+  }
+
+  // 10 n^2 E / h with the mean size h of a part and E of the first solid: the
+  // scaling of a penalty, stiff enough that the boundary follows the map.
+  double default_stiffness() const {
+    const auto& d = model_->discretization;
+    const double h = std::pow(d.samples.weight.sum() / d.boundary.n_parts(), 1.0 / (Dim - 1));
+    const double n = d.projection.monomials.degree();
+    return 10 * n * n * scene_.solids[0].material.youngs_modulus / h;
   }
 
   // Control points selected by a pin, with all that coincide with them.

@@ -1,6 +1,7 @@
 #pragma once
 // The numbers that a run writes over time.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ class Monitor {
 
   /// Columns of the probes alone, and their values.
   const std::vector<std::string>& probe_columns() const { return probe_columns_; }
+  /// The scene's truths, if any, in the order of probe_columns().
+  const std::vector<std::optional<double>>& probe_truths() const { return probe_truths_; }
   std::vector<double> probes(const State& state, const Eigen::VectorXd& acceleration) const;
 
   /// Root mean square of |x(X(u)) - J p| over the boundary, by the size of the model.
@@ -37,6 +40,7 @@ class Monitor {
   std::vector<Map<Dim>> probe_maps_;
   std::vector<int> probe_material_;
   std::vector<std::string> probe_columns_;
+  std::vector<std::optional<double>> probe_truths_;
   Eigen::VectorXd centroid_;  ///< n_columns: centroid = nodes * centroid_
 };
 

@@ -278,7 +278,7 @@ Json& resolve(Json& root, const std::string& path, const std::string& pair) {
     throw InputError("--set", pair, found, "key=value with the keys of a scene, as in solids[0].material.density=10");
   };
   static const std::regex path_form(R"(\w+(\[\d{1,6}\])*(\.\w+(\[\d{1,6}\])*)*)"), step_form(R"(\w+|\[\d+\])");
-  if (!std::regex_match(path, path_form)) fail("'" + path + "', no valid path");
+  if (path.size() > 1000 || !std::regex_match(path, path_form)) fail("'" + path + "', no valid path");
   Json* at = &root;
   for (std::sregex_iterator step(path.begin(), path.end(), step_form), end; step != end; ++step) {
     const std::string key = step->str();

@@ -1,14 +1,17 @@
 #include "sem/scene/read_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "sem/base/error.h"
+#include "sem/scene/files.h"
 
 namespace sem {
 namespace {
 
 constexpr int many = 1 << 30;
+constexpr double max_points = 1e7;  // of the interior quadrature: some GB of operators
 
 void describe_material(Fields& fields, Material& m) {
   fields.choice("model", m.model, {"linear", "stvk", "corotated", "neo_log", "neo_ref", "neo_iso"},
@@ -56,7 +59,7 @@ void describe_solid(Fields& fields, SceneSolid<Dim>& solid, const ShapeLibrary<D
   fields.object("material", "of the whole solid", [&](Fields& f) { describe_material(f, solid.material); });
   fields.items<ScenePart<Dim>>("parts", solid.parts, "the NURBS that bound the solid, in any order and orientation",
                                describe_part<Dim>);
-  if (fields.optional("shape", false) && shapes)
+  if (shapes && fields.optional("shape", false))
     fields.object("shape", "parts from the shape library, in place of or beside 'parts'",
                   [&](Fields& f) { shapes(f, solid.parts); });
   if (!fields.reading()) return;
@@ -86,6 +89,11 @@ void describe_method(Fields& fields, MethodOptions& m) {
     f.choice("rule", m.interval.rule, {"midpoint", "gauss"}, "points in each interval of a ray");
     f.integer("points", m.interval.points, 1, 10000, "points per interval, if spacing is 0");
     f.number("spacing", m.interval.spacing, at_least(0), "m", "> 0: as many points as keep this distance");
+    const double n_rays = std::pow(m.rays.n_rays, Dim - 1);
+    if (n_rays > max_points)
+      f.reject("rays", exact_text(n_rays) + " rays", "at most " + exact_text(max_points) + " in all");
+    if (m.interval.spacing == 0 && n_rays * m.interval.points > max_points)
+      f.reject("points", exact_text(n_rays * m.interval.points) + " on all rays", "at most " + exact_text(max_points));
   });
   fields.object("weights", "blending weights", [&](Fields& f) {
     f.choice("distance", m.weights.variant, {"published", "draft", "distance_only"}, "formula of the distance weight theta");
@@ -104,18 +112,21 @@ void describe_method(Fields& fields, MethodOptions& m) {
 }
 
 template <int Dim>
+void describe_box(Fields& fields, Box<Dim>& box) {
+  fields.require("lower");
+  fields.vector<Dim>("lower", box.lower, "m", "corner");
+  fields.require("upper");
+  fields.vector<Dim>("upper", box.upper, "m", "opposite corner");
+  if ((box.lower.array() > box.upper.array()).any())
+    fields.reject("lower", "a corner above 'upper'", "lower <= upper in every coordinate");
+}
+
+template <int Dim>
 void describe_selector(Fields& fields, Selector<Dim>& where, bool controls) {
   fields.text("part", where.part, "name or group of parts, also as solid/part; empty: any");
   if (fields.optional("box", where.box.has_value())) {
     if (!where.box) where.box = Box<Dim>{Vec<Dim>::Zero(), Vec<Dim>::Zero()};
-    fields.object("box", "only what lies in this box at rest", [&](Fields& f) {
-      f.require("lower");
-      f.vector<Dim>("lower", where.box->lower, "m", "corner");
-      f.require("upper");
-      f.vector<Dim>("upper", where.box->upper, "m", "opposite corner");
-      if ((where.box->lower.array() > where.box->upper.array()).any())
-        f.reject("lower", "a corner above 'upper'", "lower <= upper in every coordinate");
-    });
+    fields.object("box", "only what lies in this box at rest", [&](Fields& f) { describe_box<Dim>(f, *where.box); });
   }
   if (controls && fields.optional("control_points", !where.control_points.empty()))
     fields.integers("control_points", where.control_points, 0, "only these, counted from 0 in each part");
@@ -124,12 +135,10 @@ void describe_selector(Fields& fields, Selector<Dim>& where, bool controls) {
 template <int Dim>
 void describe_pin(Fields& fields, Pin<Dim>& pin) {
   describe_selector(fields, pin.where, true);
-  std::string axes;
-  if (!fields.reading())
-    for (int a = 0; a < Dim; ++a)
-      if (pin.axes[a]) axes += DimTraits<Dim>::axes()[a];
-  if (!fields.optional("axes", true)) axes = DimTraits<Dim>::axis_name;
-  fields.text("axes", axes, "components held; all if absent");
+  std::string axes;  // all, or when writing those held
+  for (int a = 0; a < Dim; ++a)
+    if (fields.reading() || fields.documenting() || pin.axes[a]) axes += DimTraits<Dim>::axis_name[a];
+  fields.text("axes", axes, "components held");
   if (axes.empty()) fields.reject("axes", "no axis", std::string("some of ") + DimTraits<Dim>::axis_name);
   if (fields.reading()) pin.axes.fill(false);
   for (const char axis : axes) {
@@ -196,6 +205,11 @@ void describe_probe(Fields& fields, Probe<Dim>& probe) {
     fields.require("at");
     fields.vector<Dim>("at", probe.at, "m", "displacement, stress: a rest point in or on the body");
   }
+  const bool displacement = probe.kind == ProbeKind::displacement;
+  if (displacement && fields.optional("truth", probe.truth.has_value())) {
+    if (!probe.truth) probe.truth = Vec<Dim>::Zero();
+    fields.vector<Dim>("truth", *probe.truth, "m", "displacement: the exact value at the end, if known; the report compares");
+  }
   if (at_pin || fields.documenting()) {
     fields.require("pin");
     fields.integer("pin", probe.pin, 0, many, "reaction: index of the pin, from 0");
@@ -209,8 +223,8 @@ void describe_analysis(Fields& fields, Analysis& a) {
                   "dynamic: time integration");
     fields.number("time_step", a.time_step, positive, "s", "dynamic: length of a step");
     fields.number("duration", a.duration, positive, "s", "dynamic: simulated time");
-    if (a.duration < a.time_step) fields.reject("duration", "less than one time_step", "at least one time_step");
-    if (a.duration > 1e9 * a.time_step) fields.reject("duration", "more than 1e9 steps", "fewer steps");
+    if (a.duration < a.time_step || a.duration > 1e9 * a.time_step)
+      fields.reject("duration", exact_text(a.duration), "1 to 1e9 times the time_step, " + exact_text(a.time_step));
   }
   if (a.kind == AnalysisKind::statics || fields.documenting()) {
     fields.integer("load_steps", a.load_steps, 1, 100000, "static: steps from no load to all");
@@ -225,6 +239,11 @@ void describe_output(Fields& fields, OutputOptions& o) {
   fields.number("frame_rate", o.frame_rate, between(0, 1e6), "1/s", "frames per simulated second; 0: none");
   fields.integer("width", o.width, 16, 8192, "of a frame, pixels");
   fields.integer("height", o.height, 16, 8192, "of a frame, pixels");
+  if (fields.optional("view", o.view.has_value())) {
+    if (!o.view) o.view = Box<2>{Vec<2>::Zero(), Vec<2>::Ones()};
+    fields.object("view", "what a frame shows; the rest shape with room around it if absent",
+                  [&](Fields& f) { describe_box<2>(f, *o.view); });
+  }
   fields.boolean("error_estimate", o.error_estimate, "repeat the run with varied settings to judge the probes");
   fields.number("checkpoint_interval", o.checkpoint_interval, at_least(0), "s", "simulated time between checkpoints; 0: only at the end");
 }
@@ -252,8 +271,10 @@ void check_names(Fields& fields, const Scene<Dim>& scene) {
   };
   for (size_t i = 0; i < scene.pins.size(); ++i)
     check_name(scene.pins[i].where.part, parts, "pins[" + std::to_string(i) + "].part");
-  for (const auto& load : scene.boundary_loads) check_name(load.where.part, parts, "loads");
-  for (const auto& load : scene.body_loads) check_name(load.solid, solids, "loads");
+  for (size_t i = 0; i < scene.boundary_loads.size(); ++i)
+    check_name(scene.boundary_loads[i].where.part, parts, "loads (boundary, number " + std::to_string(i + 1) + ").part");
+  for (size_t i = 0; i < scene.body_loads.size(); ++i)
+    check_name(scene.body_loads[i].solid, solids, "loads (body, number " + std::to_string(i + 1) + ").solid");
   std::set<std::string> probes;
   for (size_t i = 0; i < scene.probes.size(); ++i) {
     const auto& probe = scene.probes[i];
@@ -278,7 +299,7 @@ void describe_scene(Fields& fields, Scene<Dim>& scene, const ShapeLibrary<Dim>& 
                                 [&](Fields& f, SceneSolid<Dim>& solid) { describe_solid(f, solid, shapes); });
   fields.object("method", "the stages of the method", [&](Fields& f) { describe_method<Dim>(f, scene.method); });
   fields.object("stability", "ties the map to the boundary", [&](Fields& f) {
-    f.number("stiffness", scene.stability_stiffness, at_least(0), "Pa/m", "gamma of the stability energy; 0: E of the first solid over the model's diagonal");
+    f.number("stiffness", scene.stability_stiffness, at_least(0), "Pa/m", "gamma of the stability energy; 0: 10 n^2 E / h with E of the first solid and h the mean size of a part");
     f.number("kinetic_length", scene.kinetic_length, at_least(0), "m", "l of the kinetic stability term (draft); 0: off");
   });
   fields.vector<Dim>("gravity", scene.gravity, "m/s^2", "acceleration of gravity");

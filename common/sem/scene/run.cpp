@@ -25,11 +25,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// What a checkpoint depends on: all settings but the outputs and how long the run goes on.
+// What a checkpoint depends on: all settings but names, outputs and how long the run goes on.
 template <int Dim>
 std::string settings_fingerprint(const Scene<Dim>& scene) {
   Json settings = Json::parse(write_scene(scene));
-  settings.erase("output");
+  for (const char* key : {"name", "description", "output"}) settings.erase(key);
   settings["method"].erase("threads");
   settings["analysis"].erase("duration");
   return fingerprint(settings.dump());
@@ -60,9 +60,11 @@ class Run {
       : scene_(scene), options_(options), on_frame_(on_frame) {}
 
   RunResult run() {
-    if (!options_.folder.empty()) make_folder(options_.folder);
+    if (options_.resume && scene_.analysis.kind != AnalysisKind::dynamics)
+      throw InputError(options_.file, "--resume", "an analysis that is not dynamic", "a dynamic one: only these have checkpoints");
     progress(0, "preparing");
     model_ = build_model(scene_, options_.file);
+    if (!options_.folder.empty()) make_folder(options_.folder);
     accuracy_ = measure_accuracy(*model_);
     monitor_ = std::make_unique<Monitor<Dim>>(scene_, *model_);
     state_ = model_->initial;
@@ -71,13 +73,14 @@ class Run {
       case AnalysisKind::dynamics: run_dynamics(); break;
       case AnalysisKind::modes: run_modes(); break;
     }
+    write_results();  // whatever happens to the estimate
     if (scene_.output.error_estimate && result_.ok) {
       progress(1, "estimating the error");
       const auto start = std::chrono::steady_clock::now();
       estimate_ = estimate_error(scene_, options_.file);
       estimate_seconds_ = seconds_since(start);
+      write_results();
     }
-    write_results();
     return result_;
   }
 
@@ -88,10 +91,11 @@ class Run {
 
   std::string path(const char* name) const { return options_.folder + "/" + name; }
 
-  void frame(const State& state) {
+  void frame(const State& state, int number) {
+    if (!on_frame_ || scene_.output.frame_rate == 0) return;
     const auto start = std::chrono::steady_clock::now();
-    if (on_frame_) on_frame_(*model_, state, result_.n_frames);
-    ++result_.n_frames;
+    on_frame_(*model_, state, number);
+    result_.n_frames = number + 1;
     output_seconds_ += seconds_since(start);
   }
 
@@ -105,13 +109,15 @@ class Run {
     const AnalysisReport report = equilibrium(model_->system, scene_.analysis, model_->target, state_);
     history_ = std::make_unique<Table>(monitor_->columns());
     history_->add(monitor_->row(state_, {}, int(report.iterations), report.residual, 1));
-    frame(state_);
+    frame(state_, 0);
     finish(report, "equilibrium after " + std::to_string(report.iterations) + " iterations");
   }
 
   void run_modes() {
+    const auto start = std::chrono::steady_clock::now();
     const Modes modes = vibration_modes(model_->system, state_.z, scene_.analysis.n_modes);
     AnalysisReport report;
+    report.seconds = seconds_since(start);
     report.status = modes.status;
     history_ = std::make_unique<Table>(
         std::vector<std::string>{"mode", "omega_rad_s", "frequency_Hz", "residual"});
@@ -122,7 +128,7 @@ class Run {
       shape.step = m + 1;
       const double largest = modes.shapes.col(m).cwiseAbs().maxCoeff();
       shape.z += 0.1 * model_->discretization.boundary.box.diagonal() / largest * modes.shapes.col(m);
-      frame(shape);
+      frame(shape, m);
     }
     finish(report, std::to_string(modes.omega.size()) + " modes");
   }
@@ -130,19 +136,14 @@ class Run {
   void run_dynamics() {
     const std::string settings = settings_fingerprint(scene_);
     const double dt = scene_.analysis.time_step;
-    Checkpoint saved;
+    const long last = n_steps(scene_.analysis);
+    history_ = std::make_unique<Table>(monitor_->columns());
     if (options_.resume) {
-      saved = read_checkpoint(path("checkpoint.bin"), settings);
-      state_ = saved.state;
-      result_.n_frames = saved.n_frames;
-      history_ = std::make_unique<Table>(saved.columns);
-      for (const auto& row : saved.history) history_->add(row);
+      resume(settings, last);
     } else {
-      history_ = std::make_unique<Table>(monitor_->columns());
       history_->add(monitor_->row(state_, Eigen::VectorXd::Zero(state_.z.size()), 0, 0, 0));
       next_frame();
     }
-    const long last = n_steps(scene_.analysis);
     const double interval = scene_.output.checkpoint_interval;
     const long stride = interval > 0 ? std::max(1L, std::lround(interval / dt)) : last;
     const AnalysisReport report =
@@ -153,18 +154,36 @@ class Run {
           progress(double(now.step) / double(last), "simulating");
         });
     checkpoint(settings);
-    finish(report, std::to_string(state_.step) + " steps to t = " + exact_text(state_.time) + " s");
+    const std::string reached = "t = " + exact_text(state_.time) + " s";
+    finish(report, std::to_string(state_.step) + " steps to " + reached);
+    if (!result_.ok) result_.message += " (step " + std::to_string(state_.step + 1) + ", after " + reached + ")";
   }
 
-  // Frame f belongs to the first step at or after f / frame_rate.
+  void resume(const std::string& settings, long last) {
+    const std::string file = path("checkpoint.bin");
+    const Checkpoint saved = read_checkpoint(file, settings);
+    if (saved.columns != history_->columns() || saved.state.z.size() != state_.z.size())
+      throw InputError(file, "content", "other columns or another number of unknowns", "a checkpoint of this scene");
+    if (saved.state.step > last)
+      throw InputError(file, "step", std::to_string(saved.state.step), "at most the " + std::to_string(last) + " of the duration");
+    state_ = saved.state;
+    for (const auto& row : saved.history) history_->add(row);
+    result_.n_frames = on_frame_ ? n_frames_until(state_.step) : 0;
+  }
+
+  // Frame f belongs to the first step at or after f / frame_rate; a step has at most one.
+  int n_frames_until(long step) const {
+    const double per_step = std::min(1.0, scene_.output.frame_rate * scene_.analysis.time_step);
+    return per_step > 0 ? int((double(step) + 1e-6) * per_step) + 1 : 0;
+  }
   void next_frame() {
-    const double rate = scene_.output.frame_rate, dt = scene_.analysis.time_step;
-    if (rate > 0 && double(state_.step) >= result_.n_frames / (rate * dt) - 1e-9) frame(state_);
+    const int n = n_frames_until(state_.step);
+    if (state_.step == 0 || n > n_frames_until(state_.step - 1)) frame(state_, n - 1);
   }
 
   void checkpoint(const std::string& settings) {
     if (options_.folder.empty()) return;
-    Checkpoint checkpoint{settings, state_, result_.n_frames, history_->columns(), {}};
+    Checkpoint checkpoint{settings, state_, history_->columns(), {}};
     for (int r = 0; r < history_->size(); ++r) checkpoint.history.push_back(history_->row(r));
     write_file(path("history.csv"), history_->text());
     write_checkpoint(path("checkpoint.bin"), checkpoint);
@@ -213,6 +232,11 @@ class Run {
       json["probes"].push_back({{"probe", estimate_.columns[c]},
                                 {"value", estimate_.value[c]},
                                 {"estimated_error", estimate_.estimate[c]}});
+    for (size_t c = 0; c < monitor_->probe_truths().size() && c < json["probes"].size(); ++c)
+      if (const auto truth = monitor_->probe_truths()[c]) {
+        json["probes"][c]["truth"] = *truth;
+        json["probes"][c]["error"] = std::abs(estimate_.value[c] - *truth);
+      }
     for (const auto& variation : estimate_.variations) {
       Json entry = {{"setting", variation.setting}};
       if (variation.failure.empty())
@@ -260,6 +284,12 @@ class Run {
     return json;
   }
 
+  static std::string short_text(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return std::isfinite(value) ? text : "no value";
+  }
+
   // ", estimated error ..." of a value, if there is one.
   std::string estimated(const std::string& column) const {
     for (size_t c = 0; c < estimate_.columns.size(); ++c)
@@ -281,17 +311,27 @@ class Run {
       std::snprintf(line, sizeof line, format, values...);
       text += line;
     };
-    add("cost:     %d unknowns, %d points; preparation %.3g s, %ld steps of %.3g ms (%s build)\n",
-        model_->n_unknowns(), model_->discretization.quadrature.size(), preparing, report_.n_steps,
-        report_.n_steps > 0 ? 1e3 * report_.seconds / double(report_.n_steps) : 0, build_type);
+    add("cost:     %d unknowns, %d points; preparation %.3g s, ", model_->n_unknowns(),
+        model_->discretization.quadrature.size(), preparing);
+    if (scene_.analysis.kind == AnalysisKind::dynamics && report_.n_steps > 0)
+      add("%ld steps of %.3g ms", report_.n_steps, 1e3 * report_.seconds / double(report_.n_steps));
+    else
+      add("analysis %.3g s", report_.seconds);
+    add(" (%s build)\n", build_type);
+    add("%s", "accuracy: ");
     if (accuracy_.boundary.available)
-      add("accuracy: %s off by %.2g (relative), second moments by %.2g; ", DimTraits<Dim>::volume_name,
+      add("%s off by %.2g (relative), second moments by %.2g; ", DimTraits<Dim>::volume_name,
           accuracy_.volume_error, accuracy_.second_moment_error);
     add("uncovered %.2g\n", accuracy_.uncovered_share);
     const size_t n_probes = scene_.analysis.kind == AnalysisKind::modes ? 0 : monitor_->probe_columns().size();
-    for (size_t c = history_->columns().size() - n_probes; c < history_->columns().size(); ++c)
-      add("          %s = %.6g%s\n", history_->columns()[c].c_str(), history_->row(history_->size() - 1)[c],
-          estimated(history_->columns()[c]).c_str());
+    for (size_t probe = 0; probe < n_probes; ++probe) {
+      const size_t c = history_->columns().size() - n_probes + probe;
+      const double value = history_->row(history_->size() - 1)[c];
+      add("          %s = %s", history_->columns()[c].c_str(), short_text(value).c_str());
+      if (const auto truth = monitor_->probe_truths()[probe])
+        add(", truth %.6g: error %.2g", *truth, std::abs(value - *truth));
+      add("%s\n", estimated(history_->columns()[c]).c_str());
+    }
     if (scene_.analysis.kind == AnalysisKind::modes)
       for (int m = 0; m < history_->size(); ++m)
         add("          mode %d: omega = %.6g rad/s%s\n", m + 1, history_->row(m)[1],

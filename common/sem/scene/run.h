@@ -16,7 +16,8 @@ struct RunOptions {
   std::function<void(double, const std::string&)> progress;
 };
 
-/// Draws or writes one frame: the state (in modes: the rest shape plus the mode).
+/// Draws or writes one frame, numbered from 0: the state (in modes: the rest shape plus the mode).
+/// Not called if the scene's frame_rate is 0.
 template <int Dim>
 using FrameCallback = std::function<void(const Model<Dim>&, const State&, int frame)>;
 
@@ -25,7 +26,7 @@ struct RunResult {
   std::string message;       ///< one line for the user: what was done, or why the run stopped
   std::string report;        ///< a few lines for the user: cost and accuracy
   std::string summary_json;  ///< what summary.json holds
-  int n_frames = 0;
+  int n_frames = 0;          ///< all there are now; 0 without a callback
 };
 
 /// Runs the scene's analysis. Writes history.csv, summary.json, final_state.json

@@ -66,6 +66,7 @@ struct Probe {
   ProbeKind kind = ProbeKind::displacement;
   Vec<Dim> at = Vec<Dim>::Zero();  ///< rest point (displacement, Cauchy stress)
   int pin = 0;                     ///< index into pins (reaction: force on the body by the pin, N)
+  std::optional<Vec<Dim>> truth = {};  ///< m: the exact displacement at the end, if known; for the report
 };
 
 enum class AnalysisKind { statics, dynamics, modes };
@@ -86,6 +87,7 @@ struct Analysis {
 struct OutputOptions {
   double frame_rate = 30;         ///< frames per second of simulated time; 0: none
   int width = 800, height = 600;  ///< pixels
+  std::optional<Box<2>> view;     ///< m, what a frame shows; none: the rest shape with room around it
   bool error_estimate = true;     ///< repeats the run with varied settings (summary.json, accuracy)
   double checkpoint_interval = 1; ///< simulated seconds between checkpoints; 0: only at the end
 };
@@ -95,7 +97,7 @@ struct Scene {
   std::string name, description;
   std::vector<SceneSolid<Dim>> solids;
   MethodOptions method;
-  double stability_stiffness = 0;  ///< gamma, Pa/m; 0: E of the first solid over the model's size
+  double stability_stiffness = 0;  ///< gamma, Pa/m; 0: 10 n^2 E / h, h: mean size of a part
   double kinetic_length = 0;       ///< l of the kinetic stability term, m; 0: off
   Vec<Dim> gravity = Vec<Dim>::Zero();  ///< m/s^2
   std::vector<PointLoad<Dim>> point_loads;
