@@ -28,7 +28,7 @@ std::vector<std::array<double, 3>> part_points(const Boundary<2>& boundary, int 
 }
 
 Color part_color(int part) {
-  static const Color palette[] = {colors::okabe_ito[5], colors::okabe_ito[4], colors::okabe_ito[2]};
+  static const Color palette[] = {colors::okabe_ito[1], colors::okabe_ito[0], colors::okabe_ito[2]};
   return palette[part % 3];
 }
 

@@ -26,21 +26,21 @@ Data compute() {
 }
 
 void draw(Canvas& canvas, const Data& data) {
-  const Box<2> area{Vec<2>(42 * point, 12 * point), Vec<2>(canvas.width() - 34 * point, canvas.height() - 32 * point)};
-  const Panel panel(canvas, area, {"number of rays", 3, 1500, true}, {"relative error of the area", 1e-7, 1, true});
+  const Box<2> area{Vec<2>(42 * point, 12 * point), Vec<2>(canvas.width() - 10 * point, canvas.height() - 32 * point)};
+  const Panel panel(canvas, area, {"number of rays", 3, 1500, true}, {"relative error of the area", 1e-11, 1, true});
   const char* names[] = {"disc, midpoints", "disc, Gauss", "blob, midpoints", "blob, Gauss"};
   const MarkerShape markers[] = {MarkerShape::circle, MarkerShape::square, MarkerShape::triangle, MarkerShape::diamond};
   for (int k = 0; k < 4; ++k) {
     const Data line = data.where("body", k / 2).where("gauss", k % 2);
-    const Color color = colors::okabe_ito[k < 2 ? 4 : 5];
+    const Color color = colors::okabe_ito[k < 2 ? 0 : 1];
     const std::vector<double> dash = k % 2 ? std::vector<double>{4 * point, 2.5 * point} : std::vector<double>{};
     panel.curve(line.column("rays"), line.column("relative_error_of_area"), color, markers[k], dash);
-    const Vec<2> at = area.lower + Vec<2>(108 * point, (10 + 11 * k) * point);
+    const Vec<2> at = area.lower + Vec<2>(30 * point, (area.upper[1] - area.lower[1]) - (42 - 11 * k) * point);
     canvas.stroke(std::vector<Vec<2>>{at - Vec<2>(22 * point, 0), at - Vec<2>(4 * point, 0)}, {.color = color, .width = 1.1 * point, .dash = dash});
     canvas.marker(at - Vec<2>(13 * point, 0), markers[k], 4 * point, color);
     canvas.text(at, names[k], {.size = text_size, .vertical = TextStyle::Vertical::middle});
   }
-  panel.slope(40, 600, 1e-4, -1.5, "rays^-1.5");
+  panel.slope(60, 350, 3e-5, -1.5, "slope −3/2");
 }
 
 }  // namespace

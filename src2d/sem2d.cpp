@@ -38,6 +38,13 @@ constexpr const char* overview = R"(sem2d: elastic solids in the plane, describe
 SCENE is a JSON file or the name of a built-in scene; try: sem2d run blob
 )";
 
+InputError unknown_name(const std::string& field, const std::string& word, const std::string& what,
+                        const std::vector<std::string>& names, const std::string& allowed) {
+  const std::string close = closest_name(word, names);
+  return InputError("", field, "'" + word + "', " + what,
+                    (close.empty() ? "" : "'" + close + "' (did you mean that?), or ") + allowed);
+}
+
 struct SceneText {
   std::string text, file;
 };
@@ -50,10 +57,8 @@ SceneText find_scene(const std::string& scene) {
     if (builtin.name == scene) return {builtin.text, scene};
     names.push_back(builtin.name);
   }
-  const std::string close = closest_name(scene, names);
-  throw InputError("", "SCENE", "'" + scene + "', neither a file nor a built-in scene",
-                   close.empty() ? "a JSON file or a name that 'sem2d scenes' lists"
-                                 : "'" + close + "' (did you mean that?), or a JSON file");
+  throw unknown_name("SCENE", scene, "neither a file nor a built-in scene", names,
+                     "a JSON file or a name that 'sem2d scenes' lists");
 }
 
 Scene<2> load(const SceneText& source, const std::vector<std::string>& overrides) {
@@ -154,9 +159,7 @@ int export_scene(const std::string& name) {
     }
   std::vector<std::string> names;
   for (const auto& builtin : builtin_scenes()) names.push_back(builtin.name);
-  const std::string close = closest_name(name, names);
-  throw InputError("", "NAME", "'" + name + "', no built-in scene",
-                   close.empty() ? "a name that 'sem2d scenes' lists" : "'" + close + "' (did you mean that?)");
+  throw unknown_name("NAME", name, "no built-in scene", names, "a name that 'sem2d scenes' lists");
 }
 
 int main_program(int argc, char** argv) {
@@ -189,6 +192,12 @@ int main_program(int argc, char** argv) {
   auto* export_command = app.add_subcommand("export", "print a built-in scene");
   export_command->add_option("NAME", builtin, "of a built-in scene")->required();
   auto* schema_command = app.add_subcommand("schema", "print every key of a scene file");
+  const std::string first = argv[1];
+  if (first[0] != '-' && !app.get_subcommand_no_throw(first)) {
+    std::vector<std::string> names;
+    for (const auto* command : app.get_subcommands({})) names.push_back(command->get_name());
+    throw unknown_name("COMMAND", first, "no command", names, "run, info, scenes, export or schema");
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

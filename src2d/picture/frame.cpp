@@ -151,7 +151,7 @@ Polyline FramePainter::positions(int part, const Eigen::VectorXd& z) const {
 void FramePainter::draw(Canvas& canvas, const Model<2>& model, const State& state) {
   if (!ready_) prepare(model, state);
   const auto& d = model.discretization;
-  const Box<2> area{Vec<2>(60, 44), Vec<2>(canvas.width() - 130, canvas.height() - 44)};
+  const Box<2> area{Vec<2>(60, 44), Vec<2>(canvas.width() - 140, canvas.height() - 44)};
   const View2 view(view_, area);
   // The world that the whole area shows, for its axes.
   const Vec<2> half = (area.upper - area.lower) / (2 * view.scale()), center = (view_.lower + view_.upper) / 2;
@@ -195,7 +195,7 @@ void FramePainter::draw(Canvas& canvas, const Model<2>& model, const State& stat
   for (int c = 0; c < d.boundary.n_controls(); ++c) {
     const Vec<2> at = view.map(Vec<2>(state.z.segment<2>(2 * c)));
     canvas.marker(at, MarkerShape::circle, 5, {0.5, 0.5, 0.5, 1});
-    if (held[c]) canvas.marker(at, MarkerShape::triangle, 12, colors::okabe_ito[6]);
+    if (held[c]) canvas.marker(at, MarkerShape::triangle, 12, colors::okabe_ito[1]);
   }
   canvas.pop_clip();
   canvas.stroke_box(area, {.color = faint, .width = 1});
@@ -211,7 +211,7 @@ void FramePainter::draw(Canvas& canvas, const Model<2>& model, const State& stat
               {.size = text_size, .color = faint, .horizontal = TextStyle::Horizontal::left, .vertical = TextStyle::Vertical::top});
   if (stress_limit_ > 0) {
     const double right = canvas.width();
-    draw_color_bar(canvas, {Vec<2>(right - 82, area.lower[1] + 20), Vec<2>(right - 66, area.upper[1] - 20)}, stress_limit_);
+    draw_color_bar(canvas, {Vec<2>(right - 92, area.lower[1] + 20), Vec<2>(right - 76, area.upper[1] - 20)}, stress_limit_);
   }
 }
 

@@ -43,7 +43,7 @@ void print(const char* name, double value) { std::printf("%s %.9g\n", name, valu
 }  // namespace
 
 int main() {
-  std::printf("version %s, alignment %d %d %d\n", version, EIGEN_MAX_ALIGN_BYTES,
+  std::printf("version %s, alignment %d %d %d\n", version, EIGEN_DEFAULT_ALIGN_BYTES,
               int(alignof(Eigen::Vector4d)), int(alignof(StressDerivative<2>)));
 
   Points<2> corner(2, 3);

@@ -67,7 +67,7 @@ TEST_CASE("make_folder makes parents, and rejects what cannot be a folder to wri
   make_folder(folder / "a/b/c/");
   CHECK(fs::is_empty(folder / "a/b/c"));  // the probe is gone
   test::write(folder / "file", "x");
-  for (const std::string bad :
+  for (const std::string& bad :
        {folder / "file", folder / "file/sub", std::string("/proc/sem/out"), std::string()}) {
     CAPTURE(bad);
     test::check_names(test::error_of([&] { make_folder(bad); }), "--out",

@@ -67,7 +67,9 @@ TEST_CASE("refused: unknown keys, with the nearest valid one") {
               "test.json: found the unknown key 'gravty'; allowed: 'gravity'", "did you mean");
   check_error(triangle("", R"("color": "red")"),
               "test.json: solids[0]: found the unknown key 'color'; allowed: one of material, "
-              "name, parts, shape");
+              "name, parts");
+  check_error(triangle("", R"("shape": {"type": "disc"})"),  // no library to look it up
+              "test.json: solids[0]: found the unknown key 'shape'", "parts");
   check_error(triangle(R"("analysis": {"type": "static", "time_step": 0.1})"),
               "test.json: analysis: found the unknown key 'time_step'; allowed: ", "load_steps");
   check_error(
@@ -121,7 +123,9 @@ TEST_CASE("refused: values of the wrong type") {
 
 TEST_CASE("refused: integers that are none, counts below their least") {
   const auto with_rays = [](const char* value) {
-    return triangle(std::string(R"("method": {"quadrature": {"rays": )") + value + "}}");
+    std::string keys = R"("method": {"quadrature": {"rays": )";
+    keys += value;
+    return triangle(keys += "}}");
   };
   for (const char* value :
        {"3.9", "3.0", "1e2", "-1", "0", "100001", "4294967296", "18446744073709551615",

@@ -93,12 +93,13 @@ class RayCaster {
     const auto is_gap = [&](const Crossing& c) {
       return c.cap >= 0 && loops_.cap_length[c.cap] > boundary_.tolerance();
     };
+    const double rounding = 1e-12 * boundary_.box.diagonal();  // a part and the cap that closes it
     std::vector<char> in_loop(loops_.loops.size(), 0);
     for (size_t k = 0; k + 1 < crossings.size(); ++k) {
       in_loop[crossings[k].loop] ^= 1;
       const double begin = crossings[k].t, end = crossings[k + 1].t;
       const int solid = solid_here(in_loop);
-      if (solid < 0 || !(end > begin)) continue;
+      if (solid < 0 || !(end - begin > rounding)) continue;
       if (is_gap(crossings[k]) || is_gap(crossings[k + 1])) capped_length += end - begin;
       if (!ray.intervals.empty() && ray.intervals.back().end == begin &&
           ray.intervals.back().solid == solid)

@@ -97,7 +97,9 @@ void append_lines(const Json& json, int indent, std::string& text) {
       std::snprintf(number, sizeof number, " %.6g\n", value.get<double>());
       text += number;
     } else {
-      text += " " + (value.is_string() ? value.get<std::string>() : value.dump()) + "\n";
+      text += ' ';
+      text += value.is_string() ? value.get<std::string>() : value.dump();
+      text += '\n';
     }
   }
 }
