@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sem/nurbs/nurbs.h"
+#include "sem/nurbs/bezier_curve.h"
 #include "sem/nurbs/refine.h"
 
 namespace sem::test {
@@ -12,36 +12,22 @@ namespace sem::test {
 template <int Dim>
 using Parts = std::vector<Nurbs<Dim - 1, Dim>>;
 
-inline Nurbs<1, 2> segment(const Vec<2>& a, const Vec<2>& b) {
-  Nurbs<1, 2> line;
-  line.degree = {1};
-  line.knots = {std::vector<double>{0, 0, 1, 1}};
-  line.control_points.resize(2, 2);
-  line.control_points << a, b;
-  line.weights = Eigen::Vector2d::Ones();
-  return line;
-}
-
 /// Straight parts between consecutive points, closed.
 inline Parts<2> polygon(const std::vector<Vec<2>>& points) {
   Parts<2> parts;
   for (size_t i = 0; i < points.size(); ++i)
-    parts.push_back(segment(points[i], points[(i + 1) % points.size()]));
+    parts.push_back(segment<2>(points[i], points[(i + 1) % points.size()]));
   return parts;
 }
 
 /// Rational quadratic arc of a circle, less than half a turn.
 inline Nurbs<1, 2> arc(const Vec<2>& center, double radius, double from, double to) {
   const double half = (to - from) / 2, middle = (from + to) / 2;
-  Nurbs<1, 2> curve;
-  curve.degree = {2};
-  curve.knots = {std::vector<double>{0, 0, 0, 1, 1, 1}};
-  curve.control_points.resize(2, 3);
-  curve.control_points << center + radius * Vec<2>(std::cos(from), std::sin(from)),
+  Points<2> points(2, 3);
+  points << center + radius * Vec<2>(std::cos(from), std::sin(from)),
       center + radius / std::cos(half) * Vec<2>(std::cos(middle), std::sin(middle)),
       center + radius * Vec<2>(std::cos(to), std::sin(to));
-  curve.weights = Eigen::Vector3d(1, std::cos(half), 1);
-  return curve;
+  return bezier_curve<2>(points, Eigen::Vector3d(1, std::cos(half), 1));
 }
 
 inline Parts<2> circle(const Vec<2>& center, double radius, int n_arcs = 4) {

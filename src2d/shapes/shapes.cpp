@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sem/nurbs/bezier_curve.h"
 #include "sem/nurbs/refine.h"
 
 namespace sem::shapes2d {
@@ -16,17 +17,6 @@ std::string numbered(const std::string& group, int number) {
   return group + '.' + std::to_string(number);
 }
 
-Nurbs<1, 2> bezier(const Points<2>& control_points, const Eigen::VectorXd& weights) {
-  const int order = int(control_points.cols());
-  Nurbs<1, 2> curve;
-  curve.degree = {order - 1};
-  curve.knots[0].assign(order, 0.0);
-  curve.knots[0].insert(curve.knots[0].end(), order, 1.0);
-  curve.control_points = control_points;
-  curve.weights = weights;
-  return curve;
-}
-
 void append_side(const std::string& name, const Vec<2>& from, const Vec<2>& to, int n_parts,
                  int degree, Parts& parts) {
   Points<2> points(2, degree + 1);
@@ -34,7 +24,7 @@ void append_side(const std::string& name, const Vec<2>& from, const Vec<2>& to, 
     for (int j = 0; j <= degree; ++j)
       points.col(j) = interpolate(from, to, k * degree + j, n_parts * degree);
     parts.push_back({n_parts > 1 ? numbered(name, k + 1) : name,
-                     bezier(points, Eigen::VectorXd::Ones(degree + 1)),
+                     bezier_curve<2>(points, Eigen::VectorXd::Ones(degree + 1)),
                      {}});
   }
 }
@@ -70,7 +60,7 @@ void append_circle(const std::string& group, const Vec<2>& center, const Mat<2>&
     points << unit_circle_point(k, n_arcs), unit_circle_point(2 * k + 1, 2 * n_arcs) / weight,
         unit_circle_point(k + 1, n_arcs);
     for (int j = 0; j < 3; ++j) points.col(j) = center + axes * points.col(j);
-    parts.push_back({numbered(group, k + 1), bezier(points, Eigen::Vector3d(1, weight, 1)), {}});
+    parts.push_back({numbered(group, k + 1), bezier_curve<2>(points, Eigen::Vector3d(1, weight, 1)), {}});
   }
 }
 

@@ -7,23 +7,12 @@
 #include "sem/mechanics/quadratic_forms.h"
 #include "sem/method/discretization.h"
 #include "sem/nurbs/basis.h"
+#include "sem/nurbs/bezier_curve.h"
 #include "sem/solve/statics.h"
 
 using namespace sem;
 
 namespace {
-
-// Bezier curve through the columns of `points`, as a NURBS.
-Nurbs<1, 2> bezier(const Points<2>& points) {
-  const int n = int(points.cols());
-  Nurbs<1, 2> curve;
-  curve.degree = {n - 1};
-  curve.knots[0].assign(n, 0);
-  curve.knots[0].insert(curve.knots[0].end(), n, 1);
-  curve.control_points = points;
-  curve.weights = Eigen::VectorXd::Ones(n);
-  return curve;
-}
 
 std::vector<Nurbs<1, 2>> unit_square() {
   Points<2> corners(2, 5);
@@ -33,7 +22,7 @@ std::vector<Nurbs<1, 2>> unit_square() {
   for (int s = 0; s < 4; ++s) {
     Points<2> points(2, 3);
     points << corners.col(s), (corners.col(s) + corners.col(s + 1)) / 2, corners.col(s + 1);
-    sides.push_back(bezier(points));
+    sides.push_back(bezier_curve<2>(points, Eigen::VectorXd::Ones(points.cols())));
   }
   return sides;
 }
@@ -49,7 +38,7 @@ int main() {
   Points<2> corner(2, 3);
   corner << 1, 1, 0,  //
       0, 1, 1;
-  Nurbs<1, 2> arc = bezier(corner);  // a quarter of the unit circle
+  Nurbs<1, 2> arc = bezier_curve<2>(corner, Eigen::VectorXd::Ones(corner.cols()));  // a quarter of the unit circle
   arc.weights[1] = std::sqrt(0.5);
   const Vec<2> X = point(arc, Param<1>(0.3));
   print("arc.x", X[0]);

@@ -30,7 +30,7 @@ test::Parts<2> reference_parts() {
   REQUIRE(x0.size() == 24);
   test::Parts<2> parts;
   for (size_t i = 0; i < 24; i += 2)
-    parts.push_back(test::segment({x0[i][0], x0[i][1]}, {x0[i + 1][0], x0[i + 1][1]}));
+    parts.push_back(segment<2>({x0[i][0], x0[i][1]}, {x0[i + 1][0], x0[i + 1][1]}));
   return parts;
 }
 

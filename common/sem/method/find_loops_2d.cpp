@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "sem/method/find_loops.h"
+#include "sem/nurbs/bezier_curve.h"
 
 namespace sem::detail {
 namespace {
@@ -47,16 +48,6 @@ std::vector<int> match_ends(const std::vector<End>& ends) {
   return partner;
 }
 
-PreparedNurbs<1, 2> segment(const Vec<2>& a, const Vec<2>& b) {
-  Nurbs<1, 2> line;
-  line.degree = {1};
-  line.knots = {std::vector<double>{0, 0, 1, 1}};
-  line.control_points.resize(2, 2);
-  line.control_points << a, b;
-  line.weights = Eigen::Vector2d::Ones();
-  return prepare(line);
-}
-
 }  // namespace
 
 template <>
@@ -77,7 +68,7 @@ Loops<2> join_parts<2>(const Boundary<2>& boundary) {
         const Vec<2> from = ends[e ^ 1].position, to = ends[partner[e ^ 1]].position;
         if (from == to) continue;
         loop.caps.push_back(int(result.caps.size()));
-        result.caps.push_back(segment(from, to));
+        result.caps.push_back(prepare(segment<2>(from, to)));
         result.cap_length.push_back((to - from).norm());
       }
       result.loops.push_back(std::move(loop));
