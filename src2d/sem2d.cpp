@@ -193,11 +193,10 @@ int main_program(int argc, char** argv) {
   export_command->add_option("NAME", builtin, "of a built-in scene")->required();
   auto* schema_command = app.add_subcommand("schema", "print every key of a scene file");
   const std::string first = argv[1];
-  if (first[0] != '-' && !app.get_subcommand_no_throw(first)) {
-    std::vector<std::string> names;
-    for (const auto* command : app.get_subcommands({})) names.push_back(command->get_name());
-    throw unknown_name("COMMAND", first, "no command", names, "run, info, scenes, export or schema");
-  }
+  std::vector<std::string> commands;
+  for (const auto* command : app.get_subcommands([](CLI::App*) { return true; })) commands.push_back(command->get_name());
+  if (first[0] != '-' && std::find(commands.begin(), commands.end(), first) == commands.end())
+    throw unknown_name("COMMAND", first, "no command", commands, "run, info, scenes, export or schema");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
