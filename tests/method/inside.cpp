@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "sem/base/error.h"
 #include "sem/method/boundary_integrals.h"
 #include "sem/method/quadrature.h"
 #include "solids.h"
@@ -175,4 +176,11 @@ TEST_CASE("orientation found: the normal times it points outward") {
   const Body body({parts});
   const std::vector<int> expected = {1, -1, 1, 1, -1, -1, -1, -1};
   CHECK(body.loops.orientation == expected);
+}
+
+TEST_CASE("a spacing that asks for more points than memory holds is an error") {
+  const Body body({test::unit_box<2>()});
+  const auto rays = cast_rays(body.boundary, body.loops, {0, 4, RayGrid::midpoint});
+  CHECK_THROWS_WITH_AS(quadrature_on_rays(rays, {IntervalRule::midpoint, 1, 1e-12}),
+                       doctest::Contains("method.quadrature"), InputError);
 }

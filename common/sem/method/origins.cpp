@@ -1,7 +1,8 @@
 #include "sem/method/origins.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -9,7 +10,7 @@ namespace sem {
 namespace {
 
 constexpr double shared_weight = 1e-4;  // a part belongs to a point's set above this weight
-constexpr double flat = 1e-6;           // relative thickness of a set that lies on a line or plane
+constexpr double flat = 1e-6;           // of a set on a line or plane: product of its relative extents
 constexpr double tie = 1e-9;            // relative difference of two sums that are equal
 
 using Set = std::vector<int>;
@@ -41,8 +42,8 @@ bool is_flat(const Set& set, const Samples<Dim>& samples) {
       const Vec<Dim> r = samples.position.col(s) - center;
       second += samples.weight[s] * r * r.transpose();
     }
-  const Vec<Dim> spread = Eigen::SelfAdjointEigenSolver<Mat<Dim>>(second, Eigen::EigenvaluesOnly).eigenvalues();
-  return spread[0] <= flat * flat * spread[Dim - 1];
+  // The determinant is the product of the squared extents, of which the trace bounds each.
+  return second.determinant() <= flat * flat * std::pow(second.trace(), Dim);
 }
 
 }  // namespace

@@ -6,6 +6,10 @@
 #include "sem/method/line_rules.h"
 
 namespace sem {
+namespace {
+constexpr double max_points = 1e7;  // some GB of operators
+}
+
 template <int Dim>
 Quadrature<Dim> quadrature_on_rays(const Rays<Dim>& rays, const IntervalOptions& options) {
   if (options.spacing == 0 && options.points < 1)
@@ -20,9 +24,10 @@ Quadrature<Dim> quadrature_on_rays(const Rays<Dim>& rays, const IntervalOptions&
   for (const Ray<Dim>& ray : rays.rays)
     for (const RayInterval& interval : ray.intervals) {
       const double length = interval.end - interval.begin;
-      const int n = options.spacing > 0
-                        ? std::max(1, int(std::min(1e6, std::ceil(length / options.spacing))))
-                        : options.points;
+      const double wanted = options.spacing > 0 ? std::max(1.0, std::ceil(length / options.spacing)) : options.points;
+      if (double(weight.size()) + wanted > max_points)
+        throw InputError("", "method.quadrature", "more than 1e7 points", "fewer rays or points, or a larger spacing");
+      const int n = int(wanted);
       if (int(rule.node.size()) != n)
         rule = options.rule == IntervalRule::gauss ? gauss_legendre(n) : midpoint_rule(n);
       for (int k = 0; k < n; ++k) {

@@ -29,7 +29,8 @@ struct Quadrature {
 };
 
 /// Points in every interval of every ray.
-/// Throws InputError (field `solids`) if the body has no interior.
+/// Throws InputError if the body has no interior (field `solids`) or more than 1e7
+/// points are asked for (`method.quadrature`).
 template <int Dim>
 Quadrature<Dim> quadrature_on_rays(const Rays<Dim>& rays, const IntervalOptions& options);
 
