@@ -215,3 +215,16 @@ TEST_CASE("Gauss rules are exact to their degree, and not beyond") {
   }
   CHECK(std::abs(integrate(midpoint_rule(10), 2) - 2.0 / 3) < 1e-2);
 }
+
+TEST_CASE("a neighbour that misses the joint by 1e-9 does not cut the ray that starts there") {
+  // The bottom is split at (0.5, 0); the second half starts a little before and above that point.
+  const auto theta_of_first = [](double error) {
+    Parts<2> parts = test::polygon({{0, 0}, {0.5, 0}, {1, 0}, {1, 1}, {0, 1}});
+    parts[1].control_points.col(0) = Vec<2>(0.5 - error, error);
+    return Body(parts).theta({0.8, 0.3}, published, 2)[0];
+  };
+  const double exact = 1 - 0.3 / 0.5;  // the ray leaves (0.5, 0) along the diagonal and meets x = 1
+  CHECK(theta_of_first(0) == doctest::Approx(exact));
+  CHECK(theta_of_first(1e-9) == doctest::Approx(exact));
+  CHECK(theta_of_first(1e-3) == 0);  // a part that far off does stand in between
+}
