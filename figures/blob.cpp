@@ -11,7 +11,8 @@ namespace sem::figures {
 Discretization<2> builtin_body(const std::string& name, const std::vector<std::string>& overrides) {
   for (const auto& scene : builtin_scenes())
     if (scene.name == name)
-      return build_model(read_scene<2>(scene.text, name, shapes2d::describe_shape, overrides), name)->discretization;
+      return build_model(read_scene<2>(scene.text, name, shapes2d::describe_shape, overrides), name)
+          ->discretization;
   throw InputError("", "scene", name, "a built-in scene");
 }
 
@@ -30,6 +31,20 @@ std::vector<std::array<double, 3>> part_points(const Boundary<2>& boundary, int 
 Color part_color(int part) {
   static const Color palette[] = {colors::okabe_ito[1], colors::okabe_ito[0], colors::okabe_ito[2]};
   return palette[part % 3];
+}
+
+void draw_parts(Canvas& canvas, const View2& view, const Data& curves,
+                const std::string& part_column, int highlighted) {
+  const auto x = curves.column("x"), y = curves.column("y"), part = curves.column(part_column);
+  for (size_t begin = 0, end; begin < x.size(); begin = end) {
+    Polyline line;
+    for (end = begin; end < x.size() && part[end] == part[begin]; ++end)
+      line.push_back(view.map({x[end], y[end]}));
+    const int index = int(part[begin]);
+    const double width = index == highlighted ? 2.4 : highlighted < 0 ? 1.8 : 1.0;
+    canvas.stroke(line,
+                  {.color = part_color(index), .width = width * point, .cap = Stroke::Cap::round});
+  }
 }
 
 }  // namespace sem::figures

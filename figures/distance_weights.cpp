@@ -1,4 +1,5 @@
-// The draft's figure 4 as fields: distance weights theta_i and blending weights w_i of three curves.
+// The draft's figure 4 as fields: distance weights theta_i and blending weights w_i of three
+// curves.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +20,8 @@ Data compute() {
   Data data{{"kind", "x", "y", "column", "row"}, {}};
   for (const char* field : {"theta_", "theta_draft_", "w_"})
     for (int i = 0; i < n_parts; ++i) data.columns.push_back(field + std::to_string(i));
-  for (const auto& [part, x, y] : part_points(body.boundary)) data.rows.push_back({0, x, y, 0, 0, part, 0, 0, 0, 0, 0, 0, 0, 0});
+  for (const auto& [part, x, y] : part_points(body.boundary))
+    data.rows.push_back({0, x, y, 0, 0, part, 0, 0, 0, 0, 0, 0, 0, 0});
   Box<2> box;
   for (const auto& row : data.rows) box.include(Vec<2>(row[1], row[2]));
   const Vec<2> size = box.upper - box.lower;
@@ -39,20 +41,23 @@ Data compute() {
     WeightOptions options = body.options.weights;
     options.variant = variant;
     const auto theta = distance_weights(
-        measure_distances(body.boundary, body.loops, position, variant, options.cutoff, 2), options);
+        measure_distances(body.boundary, body.loops, position, variant, options.cutoff, 2),
+        options);
     const int column = variant == DistanceWeight::published ? 5 : 5 + n_parts;
     for (size_t k = 0; k < inner.size(); ++k)
-      for (int e = theta.begin[k]; e < theta.begin[k + 1]; ++e) data.rows[first + k][column + theta.part[e]] = theta.theta[e];
+      for (int e = theta.begin[k]; e < theta.begin[k + 1]; ++e)
+        data.rows[first + k][column + theta.part[e]] = theta.theta[e];
     if (variant != DistanceWeight::published) continue;
     const auto w = blending_weights(theta, body.boundary, position);
     for (size_t k = 0; k < inner.size(); ++k)
-      for (int e = w.begin[k]; e < w.begin[k + 1]; ++e) data.rows[first + k][5 + 2 * n_parts + w.part[e]] = w.w[e];
+      for (int e = w.begin[k]; e < w.begin[k + 1]; ++e)
+        data.rows[first + k][5 + 2 * n_parts + w.part[e]] = w.w[e];
   }
   return data;
 }
 
-void draw_field(Canvas& canvas, const Box<2>& area, const Data& cells, const Data& boundary, const std::string& field,
-                int highlighted) {
+void draw_field(Canvas& canvas, const Box<2>& area, const Data& cells, const Data& boundary,
+                const std::string& field, int highlighted) {
   int columns = 0, rows = 0;
   const auto c = cells.column("column"), r = cells.column("row"), values = cells.column(field);
   for (size_t k = 0; k < c.size(); ++k) {
@@ -69,38 +74,46 @@ void draw_field(Canvas& canvas, const Box<2>& area, const Data& cells, const Dat
   const Vec<2> corner(world.lower[0] + columns * cell, world.upper[1] - rows * cell);
   const Vec<2> top = view.map({world.lower[0], world.upper[1]}), bottom = view.map(corner);
   canvas.image(image, {top, bottom});
-  for (int part = 0; part < n_parts; ++part) {
-    Polyline line;
-    for (const auto& row : boundary.rows)
-      if (row[5] == part) line.push_back(view.map({row[1], row[2]}));
-    canvas.stroke(line, {.color = part_color(part), .width = (part == highlighted ? 2.4 : 1.0) * point, .cap = Stroke::Cap::round});
-  }
+  draw_parts(canvas, view, boundary, "theta_0", highlighted);
 }
 
 void draw(Canvas& canvas, const Data& data) {
   const Data boundary = data.where("kind", 0), cells = data.where("kind", 1);
   const char* fields[] = {"theta_", "theta_draft_", "w_"};
   const char* titles[] = {"θ published", "θ draft (eq. 25)", "w published"};
-  const double left = 22 * point, top = 18 * point, right = canvas.width() - 46 * point, bottom = canvas.height() - 6 * point;
+  const double left = 22 * point, top = 18 * point, right = canvas.width() - 46 * point,
+               bottom = canvas.height() - 6 * point;
   const double width = (right - left) / n_parts, height = (bottom - top) / 3;
   const char* names[] = {"red", "blue", "green"};
   for (int row = 0; row < 3; ++row) {
     for (int i = 0; i < n_parts; ++i) {
       const Vec<2> corner(left + i * width, top + row * height);
-      const Box<2> area{corner + Vec<2>(3 * point, 3 * point), corner + Vec<2>(width - 3 * point, height - 3 * point)};
+      const Box<2> area{corner + Vec<2>(3 * point, 3 * point),
+                        corner + Vec<2>(width - 3 * point, height - 3 * point)};
       draw_field(canvas, area, cells, boundary, fields[row] + std::to_string(i), i);
       if (row == 0) panel_title(canvas, area, std::string("of the ") + names[i] + " curve");
     }
     canvas.text({10 * point, top + (row + 0.5) * height}, titles[row],
-                {.size = text_size, .horizontal = TextStyle::Horizontal::center, .vertical = TextStyle::Vertical::middle, .upward = true});
+                {.size = text_size,
+                 .horizontal = TextStyle::Horizontal::center,
+                 .vertical = TextStyle::Vertical::middle,
+                 .upward = true});
   }
-  color_bar(canvas, {Vec<2>(right + 10 * point, top + 10 * point), Vec<2>(right + 18 * point, bottom - 10 * point)}, 0, 1, "weight");
+  color_bar(canvas,
+            {Vec<2>(right + 10 * point, top + 10 * point),
+             Vec<2>(right + 18 * point, bottom - 10 * point)},
+            0, 1, "weight");
 }
 
 }  // namespace
 
 Figure distance_weights() {
-  return {"distance_weights", "Draft figure 4 as fields: theta (published, draft) and w of the three curves", 7, 6.6, compute, draw};
+  return {"distance_weights",
+          "Draft figure 4 as fields: theta (published, draft) and w of the three curves",
+          7,
+          6.6,
+          compute,
+          draw};
 }
 
 }  // namespace sem::figures

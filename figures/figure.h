@@ -20,6 +20,11 @@ struct Data {
   Data where(const std::string& name, double value) const;
 };
 
+/// Comma separated, a line of names first; numbers read back as the same bits.
+std::string to_csv(const Data& data);
+/// Throws InputError, naming `file` and the line, for anything but a table of numbers.
+Data from_csv(const std::string& text, const std::string& file);
+
 /// Sizes are in inches; text is 8 pt at the final size of 300 dots per inch.
 struct Figure {
   std::string name;
@@ -37,6 +42,11 @@ inline constexpr double text_size = 8 * point;
 /// All figures, in the order of the draft.
 const std::vector<Figure>& all_figures();
 
+/// Writes NAME.csv into the folder, then draws NAME.png from what the file holds. Throws InputError
+/// if a file cannot be written.
+void make_figure(const Figure& figure, const std::string& folder);
+
+Figure distance_construction();
 Figure distance_weights();
 Figure raycast_quadrature();
 Figure quadrature_convergence();

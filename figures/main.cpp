@@ -1,12 +1,11 @@
 // sem_figures: every figure from one command, its numbers (CSV) before its picture (PNG).
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 
 #include "figures/figure.h"
 #include "sem/base/error.h"
-#include "sem/draw/raster.h"
 #include "sem/scene/fields.h"
 #include "sem/scene/files.h"
 
@@ -14,21 +13,6 @@ namespace {
 
 using namespace sem;
 using namespace sem::figures;
-
-std::string csv(const Data& data) {
-  Table table(data.columns);
-  for (const auto& row : data.rows) table.add(row);
-  return table.text();
-}
-
-void make(const Figure& figure, const std::string& folder) {
-  const Data data = figure.compute();
-  write_file(folder + "/" + figure.name + ".csv", csv(data));
-  RasterCanvas canvas(int(std::lround(figure.width * dots_per_inch)), int(std::lround(figure.height * dots_per_inch)));
-  figure.draw(canvas, data);
-  write_png(folder + "/" + figure.name + ".png", canvas.finish(), dots_per_inch);
-  std::cout << folder << "/" << figure.name << ".png  " << figure.caption << std::endl;
-}
 
 std::vector<Figure> select(const std::vector<std::string>& names) {
   if (names.empty()) return all_figures();
@@ -39,8 +23,9 @@ std::vector<Figure> select(const std::vector<std::string>& names) {
     const auto at = std::find(known.begin(), known.end(), name);
     if (at == known.end()) {
       const std::string close = closest_name(name, known);
-      throw InputError("", "NAME", "'" + name + "'",
-                       close.empty() ? "a figure that --list shows" : "'" + close + "' (did you mean that?)");
+      throw InputError(
+          "", "NAME", "'" + name + "'",
+          close.empty() ? "a figure that --list shows" : "'" + close + "' (did you mean that?)");
     }
     selected.push_back(all_figures()[at - known.begin()]);
   }
@@ -50,7 +35,8 @@ std::vector<Figure> select(const std::vector<std::string>& names) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"sem_figures: draws the figures, each from a CSV file of its numbers", "sem_figures"};
+  CLI::App app{"sem_figures: draws the figures, each from a CSV file of its numbers",
+               "sem_figures"};
   std::vector<std::string> names;
   std::string folder = "out/figures";
   bool list = false;
@@ -64,14 +50,21 @@ int main(int argc, char** argv) {
   }
   try {
     if (list) {
-      for (const auto& figure : all_figures()) std::printf("%-24s %s\n", figure.name.c_str(), figure.caption.c_str());
+      for (const auto& figure : all_figures())
+        std::printf("%-24s %s\n", figure.name.c_str(), figure.caption.c_str());
       return 0;
     }
     const auto selected = select(names);
     make_folder(folder);
-    for (const auto& figure : selected) make(figure, folder);
+    for (const auto& figure : selected) {
+      make_figure(figure, folder);
+      std::cout << folder << "/" << figure.name << ".png  " << figure.caption << std::endl;
+    }
   } catch (const InputError& error) {
     std::cerr << "sem_figures: " << error.what() << "\n";
     return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "sem_figures: " << error.what() << "\n";
+    return 1;
   }
 }

@@ -5,214 +5,276 @@
 
 #include "sem/draw/image.h"
 #include "sem/draw/view.h"
-#include "sem/nurbs/basis.h"
+#include "src2d/picture/scales.h"
 
 namespace sem {
 namespace {
 
-constexpr int points_per_piece = 24;
-constexpr double text_size = 14;
-const Color outline_color{0.15, 0.15, 0.2, 1}, faint{0.6, 0.6, 0.6, 1};
+using Horizontal = TextStyle::Horizontal;
+using Vertical = TextStyle::Vertical;
 
-// Round number at or above the value: 1, 2 or 5 times a power of ten.
+constexpr Color ink{0.13, 0.14, 0.18}, label_ink{0.35, 0.36, 0.4}, hairline{0.9, 0.9, 0.92};
+constexpr Color pin_color = colors::okabe_ito[1];
+
+// Tints of the solids: far from viridis, so that stress stays readable on them.
+Color tint(int solid) {
+  constexpr Color tints[] = {
+      {0.72, 0.80, 0.90, 0.6}, {0.95, 0.80, 0.68, 0.6}, {0.86, 0.78, 0.88, 0.6}};
+  return tints[solid % 3];
+}
+
+// A round number not below the value.
 double round_up(double value) {
   const double decade = std::pow(10, std::floor(std::log10(value)));
-  for (const double factor : {1.0, 2.0, 5.0, 10.0})
+  for (const double factor : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})
     if (factor * decade >= value) return factor * decade;
   return 10 * decade;
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
+struct StressUnit {
+  const char* name;
+  double size;
+};
+
+// The unit in which a stress is a number from 1 to 1000, if there is one.
+StressUnit stress_unit(double stress) {
+  constexpr StressUnit units[] = {{"GPa", 1e9}, {"MPa", 1e6},  {"kPa", 1e3},
+                                  {"Pa", 1},    {"mPa", 1e-3}, {"µPa", 1e-6}};
+  for (const StressUnit& candidate : units)
+    if (stress >= candidate.size) return candidate;
+  return units[5];
+}
+
+std::string formatted(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
   return text;
 }
 
-void draw_axes(Canvas& canvas, const View2& view, const Box<2>& world, const Box<2>& area) {
-  const Stroke grid{.color = {0.9, 0.9, 0.92, 1}, .width = 1};
-  const TextStyle below{.size = text_size, .color = faint, .horizontal = TextStyle::Horizontal::center,
-                        .vertical = TextStyle::Vertical::top};
-  const TextStyle beside{.size = text_size, .color = faint, .horizontal = TextStyle::Horizontal::right,
-                         .vertical = TextStyle::Vertical::middle};
-  for (int a = 0; a < 2; ++a) {
-    const double step = nice_step(world.lower[a], world.upper[a], 7);
-    for (const double tick : nice_ticks(world.lower[a], world.upper[a], 7)) {
-      Vec<2> at = world.lower;
-      at[a] = tick;
-      const Vec<2> pixel = view.map(at);
-      if (a == 0) {
-        canvas.line({pixel[0], area.lower[1]}, {pixel[0], area.upper[1]}, grid);
-        canvas.text({pixel[0], area.upper[1] + 6}, tick_label(tick, step), below);
-      } else {
-        canvas.line({area.lower[0], pixel[1]}, {area.upper[0], pixel[1]}, grid);
-        canvas.text({area.lower[0] - 6, pixel[1]}, tick_label(tick, step), beside);
-      }
-    }
-  }
-}
-
-void draw_color_bar(Canvas& canvas, const Box<2>& bar, double limit) {
-  canvas.image(viridis_ramp(), bar);
-  canvas.stroke_box(bar, {.color = faint, .width = 1});
-  const TextStyle label{.size = text_size, .vertical = TextStyle::Vertical::middle};
-  for (const double share : {0.0, 0.5, 1.0})
-    canvas.text({bar.upper[0] + 6, bar.upper[1] + share * (bar.lower[1] - bar.upper[1])}, number(share * limit), label);
-  canvas.text({bar.lower[0] - 8, (bar.lower[1] + bar.upper[1]) / 2}, "von Mises stress (Pa)",
-              {.size = text_size, .horizontal = TextStyle::Horizontal::center, .upward = true});
-}
+// Pixels per unit of length of a canvas of 800 x 600.
+double unit(const Canvas& canvas) { return std::min(canvas.width() / 800, canvas.height() / 600); }
 
 }  // namespace
 
-Eigen::VectorXd von_mises(const Model<2>& model, const Eigen::VectorXd& z) {
-  const auto& map = model.discretization.interior;
-  const Eigen::Map<const Points<2>> nodes(z.data(), 2, map.n_columns);
-  Eigen::VectorXd result(map.n_points);
-  for (const auto& block : map.blocks) {
-    const Points<2> local = nodes(Eigen::all, block.columns);
-    const Points<2> dx = local * block.gradient[0].transpose(), dy = local * block.gradient[1].transpose();
-    for (size_t k = 0; k < block.points.size(); ++k) {
-      Mat<2> F;
-      F << dx.col(k), dy.col(k);
-      const Material& material = model.materials.materials[model.materials.of_point[block.points[k]]];
-      if (!std::isfinite(energy_density<2>(material, F))) {
-        result[block.points[k]] = 0;  // inverted where the model has no stress
-        continue;
+// One frame on its canvas. Lengths are in units of a canvas of 800 x 600.
+class FramePainter::Drawing {
+ public:
+  Drawing(Canvas& canvas, const Scene<2>& scene, const Model<2>& model, const Setup& setup,
+          const State& state)
+      : canvas_(canvas),
+        scene_(scene),
+        model_(model),
+        setup_(setup),
+        z_(state.z),
+        state_(state),
+        unit_(unit(canvas)),
+        area_(area(canvas)),
+        view_(setup.view, area_) {}
+
+  void draw() {
+    axes();
+    canvas_.push_clip(area_);
+    const auto& rest = model_.system.rest;
+    for (int i = 0; i < setup_.outline.n_parts(); ++i)
+      canvas_.stroke(view_.map(setup_.outline.part(i, rest)),
+                     {.color = {0.62, 0.63, 0.66}, .width = unit_, .dash = {5 * unit_, 4 * unit_}});
+    solids();
+    const double limit = stresses();
+    controls();
+    boundary();
+    pins();
+    canvas_.pop_clip();
+    canvas_.stroke_box(area_, {.color = label_ink, .width = unit_});
+    titles();
+    if (limit > 0) color_bar(limit);
+  }
+
+ private:
+  TextStyle text(double size, const Color& color, Horizontal horizontal, Vertical vertical) const {
+    return {.size = size * unit_, .color = color, .horizontal = horizontal, .vertical = vertical};
+  }
+
+  void axes() {
+    // The world that the whole area shows.
+    const Vec<2> half = (area_.upper - area_.lower) / (2 * view_.scale());
+    const Vec<2> center = (setup_.view.lower + setup_.view.upper) / 2;
+    for (int a = 0; a < 2; ++a) {
+      const double lower = center[a] - half[a], upper = center[a] + half[a],
+                   step = nice_step(lower, upper, 7);
+      for (const double tick : nice_ticks(lower, upper, 7)) {
+        Vec<2> world = center;
+        world[a] = tick;
+        const double at = std::floor(view_.map(world)[a]) + 0.5;
+        Vec<2> from(area_.lower), to(area_.upper);
+        from[a] = to[a] = at;
+        canvas_.line(from, to, {.color = hairline, .width = 1});
+        if (a == 0)
+          canvas_.text({at, area_.upper[1] + 6 * unit_}, tick_label(tick, step),
+                       text(13, label_ink, Horizontal::center, Vertical::top));
+        else
+          canvas_.text({area_.lower[0] - 6 * unit_, at}, tick_label(tick, step),
+                       text(13, label_ink, Horizontal::right, Vertical::middle));
       }
-      const Mat<2> s = cauchy_stress<2>(material, F);
-      // Plane strain: the stress across the plane, to first order nu (s_xx + s_yy).
-      const double sz = material.poisson_ratio * (s(0, 0) + s(1, 1));
-      result[block.points[k]] =
-          std::sqrt(((s(0, 0) - s(1, 1)) * (s(0, 0) - s(1, 1)) + (s(1, 1) - sz) * (s(1, 1) - sz) +
-                     (sz - s(0, 0)) * (sz - s(0, 0))) / 2 + 3 * s(0, 1) * s(0, 1));
+    }
+    const Vec<2> middle = (area_.lower + area_.upper) / 2;
+    canvas_.text({middle[0], area_.upper[1] + 28 * unit_}, "x (m)",
+                 text(14, label_ink, Horizontal::center, Vertical::top));
+    TextStyle upward = text(14, label_ink, Horizontal::center, Vertical::middle);
+    upward.upward = true;
+    canvas_.text({18 * unit_, middle[1]}, "y (m)", upward);
+  }
+
+  void solids() {
+    for (const auto& region : setup_.outline.regions(z_)) {
+      std::vector<Polyline> loops;
+      for (const auto& loop : region.loops) loops.push_back(view_.map(loop));
+      canvas_.fill(loops, tint(region.solid));
     }
   }
-  return result;
-}
 
-void FramePainter::prepare(const Model<2>& model, const State& first) {
-  const auto& d = model.discretization;
-  curves_.resize(d.boundary.n_parts());
-  BasisValues<1> basis;
-  for (int i = 0; i < d.boundary.n_parts(); ++i)
-    for (const auto& piece : d.boundary.parts[i].pieces)
-      for (int k = piece.lower == d.boundary.parts[i].pieces[0].lower ? 0 : 1; k <= points_per_piece; ++k) {
-        const double s = double(k) / points_per_piece;
-        evaluate_basis(d.boundary.parts[i].nurbs, Param<1>((1 - s) * piece.lower + s * piece.upper), 0, basis);
-        auto& row = curves_[i].rows.emplace_back();
-        for (size_t e = 0; e < basis.column.size(); ++e)
-          row.push_back({d.boundary.first_control[i] + basis.column[e], basis.value[e]});
-      }
-  for (const auto& loop : d.loops.loops) {
-    Outline outline{loop.solid, {}};
-    const auto end = [&](size_t at, bool last) {
-      const Polyline line = positions(loop.parts[at], model.system.rest);
-      return last ? line.back() : line.front();
-    };
-    const size_t n = loop.parts.size();
-    // A part runs backward if its start is closer to the next part than its end is.
-    const auto gap = [&](size_t at, bool last) {
-      return std::min((end(at, last) - end((at + 1) % n, false)).norm(), (end(at, last) - end((at + 1) % n, true)).norm());
-    };
-    bool backward = n > 1 && gap(0, false) < gap(0, true);
-    for (size_t k = 0; k < n; ++k) {
-      if (k > 0) {
-        const Vec<2> previous = end(k - 1, !outline.parts.back().second);
-        backward = (end(k, true) - previous).norm() < (end(k, false) - previous).norm();
-      }
-      outline.parts.push_back({loop.parts[k], backward});
+  // Discs of the area that the points stand for. Returns where the colour scale ends.
+  double stresses() {
+    const auto& quadrature = model_.discretization.quadrature;
+    const Eigen::VectorXd stress = von_mises(model_, z_);
+    for (const double value : stress) {
+      if (std::isnan(value))
+        ++n_inverted_;
+      else
+        largest_ = std::max(largest_, value);
     }
-    outlines_.push_back(outline);
+    const double limit = setup_.stress_limit > 0 ? setup_.stress_limit
+                         : largest_ > 0          ? round_up(largest_)
+                                                 : 0;
+    const Points<2> x = evaluate(model_.discretization.interior, z_);
+    for (int k = 0; k < quadrature.size(); ++k) {
+      const double size = std::clamp(0.8 * std::sqrt(quadrature.weight[k]) * view_.scale(),
+                                     2.5 * unit_, 15 * unit_);
+      canvas_.marker(view_.map(Vec<2>(x.col(k))), MarkerShape::circle, size,
+                     colors::viridis(limit > 0 ? stress[k] / limit : 0));
+    }
+    return limit;
   }
-  if (scene_.output.view) {
-    view_ = *scene_.output.view;
-  } else {
-    view_ = d.boundary.box;
-    const bool moving = scene_.analysis.kind == AnalysisKind::dynamics;
-    const Vec<2> room = Vec<2>::Constant((moving ? 0.45 : 0.12) * view_.diagonal());
-    for (const auto& z : {model.system.rest, first.z})
-      for (int i = 0; i < d.boundary.n_parts(); ++i)
-        for (const auto& x : positions(i, z)) view_.include(x);
-    view_.lower -= room;
-    view_.upper += room;
-  }
-  ready_ = true;
-}
 
-Polyline FramePainter::positions(int part, const Eigen::VectorXd& z) const {
-  Polyline line;
-  for (const auto& row : curves_[part].rows) {
-    Vec<2> x = Vec<2>::Zero();
-    for (const auto& [column, value] : row) x += value * z.segment<2>(2 * column);
-    line.push_back(x);
+  void boundary() {
+    for (int i = 0; i < setup_.outline.n_parts(); ++i)
+      canvas_.stroke(view_.map(setup_.outline.part(i, z_)),
+                     {.color = ink, .width = 2 * unit_, .cap = Stroke::Cap::round});
+    for (int i = 0; i < setup_.outline.n_parts(); ++i) {
+      const Polyline line = setup_.outline.part(i, z_);
+      for (const auto& end : {line.front(), line.back()})
+        canvas_.marker(view_.map(end), MarkerShape::circle, 7 * unit_, ink);
+    }
   }
-  return line;
+
+  Vec<2> control(int c) const { return view_.map(Vec<2>(z_.segment<2>(2 * c))); }
+
+  void controls() {
+    const auto& b = model_.discretization.boundary;
+    for (int i = 0; i < b.n_parts(); ++i) {
+      if (b.parts[i].nurbs.degree[0] == 1) continue;  // the control points are the ends of segments
+      Polyline polygon;
+      for (int c = b.first_control[i]; c < b.first_control[i + 1]; ++c)
+        polygon.push_back(control(c));
+      canvas_.stroke(polygon, {.color = {0.72, 0.72, 0.74}, .width = 0.8 * unit_});
+      for (const auto& at : polygon)
+        canvas_.marker(at, MarkerShape::circle, 4.5 * unit_, {0.5, 0.5, 0.5});
+    }
+  }
+
+  void pins() {
+    const int n_controls = model_.discretization.boundary.n_controls();
+    std::vector<std::array<bool, 2>> held(n_controls, {false, false});
+    for (const auto& pin : model_.pinned)
+      for (const int entry : pin) held[entry / 2][entry % 2] = true;
+    for (int c = 0; c < n_controls; ++c) pin(control(c), held[c][0], held[c][1]);
+  }
+
+  void pin(const Vec<2>& at, bool x, bool y) {
+    if (x && y) {
+      const double w = 6.5 * unit_, h = 12 * unit_;
+      canvas_.fill(Polyline{at, at + Vec<2>(w, h), at + Vec<2>(-w, h)}, pin_color);
+    } else if (x || y) {
+      const Vec<2> free = 8 * unit_ * (x ? Vec<2>(0, 1) : Vec<2>(1, 0));
+      canvas_.line(at - free, at + free,
+                   {.color = pin_color, .width = 3.5 * unit_, .cap = Stroke::Cap::round});
+    } else {
+      return;
+    }
+    canvas_.marker(at, MarkerShape::circle, 5 * unit_, pin_color);
+  }
+
+  void titles() {
+    const double y = 26 * unit_;
+    canvas_.text({area_.lower[0], y}, scene_.name,
+                 text(17, ink, Horizontal::left, Vertical::baseline));
+    std::string when = "static equilibrium";
+    if (scene_.analysis.kind == AnalysisKind::dynamics) {
+      const double step = std::min(0.01, scene_.analysis.time_step);
+      when = "t = " + tick_label(state_.time, scene_.output.frame_rate > 100 ? step : 0.01) + " s";
+    }
+    if (scene_.analysis.kind == AnalysisKind::modes)
+      when = formatted("mode %.0f", double(state_.step));
+    canvas_.text({area_.upper[0], y}, when, text(17, ink, Horizontal::right, Vertical::baseline));
+    if (n_inverted_ > 0)
+      canvas_.text({(area_.lower[0] + area_.upper[0]) / 2, y},
+                   formatted("%.0f points inverted (gray)", n_inverted_),
+                   text(14, pin_color, Horizontal::center, Vertical::baseline));
+  }
+
+  void color_bar(double limit) {
+    const double left = area_.upper[0] + 22 * unit_;
+    const Box<2> bar{Vec<2>(left, area_.lower[1] + 48 * unit_),
+                     Vec<2>(left + 16 * unit_, area_.upper[1] - 44 * unit_)};
+    const StressUnit stress = stress_unit(limit);
+    canvas_.text({left, area_.lower[1] + 2 * unit_}, "von Mises",
+                 text(14, ink, Horizontal::left, Vertical::top));
+    canvas_.text({left, area_.lower[1] + 21 * unit_}, std::string("stress (") + stress.name + ")",
+                 text(14, ink, Horizontal::left, Vertical::top));
+    canvas_.image(viridis_ramp(), bar);
+    canvas_.stroke_box(bar, {.color = label_ink, .width = unit_});
+    const double end = limit / stress.size, step = nice_step(0, end, 5);
+    for (const double tick : nice_ticks(0, end, 5)) {
+      const double y = bar.upper[1] + tick / end * (bar.lower[1] - bar.upper[1]);
+      canvas_.line({bar.upper[0], y}, {bar.upper[0] + 4 * unit_, y},
+                   {.color = label_ink, .width = unit_});
+      canvas_.text({bar.upper[0] + 8 * unit_, y}, tick_label(tick, step),
+                   text(13, label_ink, Horizontal::left, Vertical::middle));
+    }
+    canvas_.text({left, bar.upper[1] + 16 * unit_},
+                 scene_.analysis.kind == AnalysisKind::dynamics ? "maximum now" : "maximum",
+                 text(12, label_ink, Horizontal::left, Vertical::top));
+    canvas_.text(
+        {left, bar.upper[1] + 32 * unit_},
+        formatted("%.3g ", largest_ < 1e-9 * limit ? 0 : largest_ / stress.size) + stress.name,
+        text(13, ink, Horizontal::left, Vertical::top));
+  }
+
+  Canvas& canvas_;
+  const Scene<2>& scene_;
+  const Model<2>& model_;
+  const Setup& setup_;
+  const Eigen::VectorXd& z_;
+  const State& state_;
+  const double unit_;  // pixels
+  const Box<2> area_;  // of the world, in pixels
+  const View2 view_;
+  double largest_ = 0;  // Pa
+  int n_inverted_ = 0;
+};
+
+Box<2> FramePainter::area(const Canvas& canvas) {
+  const double u = unit(canvas);
+  return {Vec<2>(66, 40) * u, Vec<2>(canvas.width() - 124 * u, canvas.height() - 54 * u)};
 }
 
 void FramePainter::draw(Canvas& canvas, const Model<2>& model, const State& state) {
-  if (!ready_) prepare(model, state);
-  const auto& d = model.discretization;
-  const Box<2> area{Vec<2>(60, 44), Vec<2>(canvas.width() - 140, canvas.height() - 44)};
-  const View2 view(view_, area);
-  // The world that the whole area shows, for its axes.
-  const Vec<2> half = (area.upper - area.lower) / (2 * view.scale()), center = (view_.lower + view_.upper) / 2;
-  const Box<2> world{center - half, center + half};
-  draw_axes(canvas, view, world, area);
-  canvas.push_clip(area);
-
-  const Eigen::VectorXd& rest = model.system.rest;
-  for (int i = 0; i < d.boundary.n_parts(); ++i)
-    canvas.stroke(view.map(positions(i, rest)), {.color = faint, .width = 1, .dash = {5, 4}});
-
-  for (int s = 0; s < d.boundary.n_solids; ++s) {
-    std::vector<Polyline> loops;
-    for (const auto& outline : outlines_) {
-      if (outline.solid != s) continue;
-      auto& loop = loops.emplace_back();
-      for (const auto& [part, backward] : outline.parts) {
-        Polyline line = view.map(positions(part, state.z));
-        if (backward) std::reverse(line.begin(), line.end());
-        loop.insert(loop.end(), line.begin(), line.end());
-      }
-    }
-    canvas.fill(loops, colors::mix(colors::white, colors::categorical(s), 0.18));
+  if (!setup_) {
+    const bool dynamic = scene_.analysis.kind == AnalysisKind::dynamics;
+    const double expected = dynamic ? expected_stress(model) : 0;
+    setup_.emplace(Setup{Outline(model.discretization), view_box(scene_, model),
+                         expected > 0 ? round_up(expected) : 0});
   }
-
-  const Eigen::VectorXd stress = von_mises(model, state.z);
-  const double largest = stress.maxCoeff();
-  if (largest > stress_limit_) stress_limit_ = round_up(largest);
-  const Points<2> x = evaluate(d.interior, state.z);
-  for (int k = 0; k < d.quadrature.size(); ++k) {
-    const double size = std::clamp(0.8 * std::sqrt(d.quadrature.weight[k]) * view.scale(), 2.0, 14.0);
-    canvas.marker(view.map(Vec<2>(x.col(k))), MarkerShape::circle, size,
-                  colors::viridis(stress_limit_ > 0 ? stress[k] / stress_limit_ : 0));
-  }
-
-  for (int i = 0; i < d.boundary.n_parts(); ++i)
-    canvas.stroke(view.map(positions(i, state.z)), {.color = outline_color, .width = 2.2, .cap = Stroke::Cap::round});
-  std::vector<bool> held(d.boundary.n_controls(), false);
-  for (const auto& pin : model.pinned)
-    for (const int entry : pin) held[entry / 2] = true;
-  for (int c = 0; c < d.boundary.n_controls(); ++c) {
-    const Vec<2> at = view.map(Vec<2>(state.z.segment<2>(2 * c)));
-    canvas.marker(at, MarkerShape::circle, 5, {0.5, 0.5, 0.5, 1});
-    if (held[c]) canvas.marker(at, MarkerShape::triangle, 12, colors::okabe_ito[1]);
-  }
-  canvas.pop_clip();
-  canvas.stroke_box(area, {.color = faint, .width = 1});
-
-  const TextStyle title{.size = text_size + 2};
-  canvas.text({area.lower[0], 28}, scene_.name, title);
-  char when[64] = "";
-  if (scene_.analysis.kind == AnalysisKind::dynamics) std::snprintf(when, sizeof when, "t = %.3f s", state.time);
-  if (scene_.analysis.kind == AnalysisKind::modes) std::snprintf(when, sizeof when, "mode %ld", state.step);
-  if (scene_.analysis.kind == AnalysisKind::statics) std::snprintf(when, sizeof when, "equilibrium");
-  canvas.text({area.upper[0], 28}, when, {.size = text_size + 2, .horizontal = TextStyle::Horizontal::right});
-  canvas.text({area.upper[0], area.upper[1] + 6}, "m",
-              {.size = text_size, .color = faint, .horizontal = TextStyle::Horizontal::left, .vertical = TextStyle::Vertical::top});
-  if (stress_limit_ > 0) {
-    const double right = canvas.width();
-    draw_color_bar(canvas, {Vec<2>(right - 92, area.lower[1] + 20), Vec<2>(right - 76, area.upper[1] - 20)}, stress_limit_);
-  }
+  Drawing(canvas, scene_, model, *setup_, state).draw();
 }
 
 }  // namespace sem

@@ -1,43 +1,43 @@
 #pragma once
 // One frame of a run: the deformed body, what it carries, when.
 
+#include <optional>
+
 #include "sem/draw/canvas.h"
-#include "sem/scene/model.h"
+#include "src2d/picture/outline.h"
 
 namespace sem {
 
-/// Draws the states of one scene, all in the same view. The interior shows the
-/// von Mises stress at the quadrature points, in discs of the area they stand
-/// for; its colour scale ends at a round number that holds the largest stress
-/// drawn so far, so it changes seldom and is written beside the bar.
+/// Draws states of one scene, all in the same view (view_box). Solids are tinted by their number,
+/// so that holes stay empty and overlaps are seen; rest shape dashed; ends of parts as dots;
+/// control points in gray; pins in red: a triangle holds both components, a bar lets the point
+/// slide along it.
+///
+/// Discs at the quadrature points show the von Mises stress. In dynamics the colours end at a round
+/// number from expected_stress, the same in all frames: higher stresses look alike, so the frame's
+/// own maximum stands below the bar. In statics and modes they end at the frame's own maximum.
+/// Points where the material is inverted are gray and counted.
 class FramePainter {
  public:
   explicit FramePainter(const Scene<2>& scene) : scene_(scene) {}
+  /// Sizes follow the canvas: lettering is 14 pixels high on one of 800 x 600. All states belong to
+  /// the model that is drawn first.
   void draw(Canvas& canvas, const Model<2>& model, const State& state);
 
- private:
-  // A part as points on its curve: position k is sum_e value[e] p[column[e]].
-  struct Curve {
-    std::vector<std::vector<std::pair<int, double>>> rows;
-  };
-  // Parts of a loop in their order along it.
-  struct Outline {
-    int solid;
-    std::vector<std::pair<int, bool>> parts;  // part, drawn from its end to its start
-  };
+  /// The pixels of a canvas in which the world is drawn; labels stand around them.
+  static Box<2> area(const Canvas& canvas);
 
-  void prepare(const Model<2>& model, const State& first);
-  Polyline positions(int part, const Eigen::VectorXd& z) const;
+ private:
+  // What is the same in all frames.
+  struct Setup {
+    Outline outline;
+    Box<2> view;
+    double stress_limit;  // Pa, 0: the frame's own
+  };
+  class Drawing;
 
   const Scene<2>& scene_;
-  bool ready_ = false;
-  Box<2> view_;
-  std::vector<Curve> curves_;
-  std::vector<Outline> outlines_;
-  double stress_limit_ = 0;
+  std::optional<Setup> setup_;
 };
-
-/// Von Mises stress of plane strain at every quadrature point, Pa.
-Eigen::VectorXd von_mises(const Model<2>& model, const Eigen::VectorXd& z);
 
 }  // namespace sem

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "sem/solve/modes.h"
 #include "sem/solve/statics.h"
 #include "springs.h"
 

@@ -341,7 +341,9 @@ StressDerivative<Dim> stress_derivative(const Material& material, const Mat<Dim>
 
 template <int Dim>
 StressDerivative<Dim> project_to_psd(const StressDerivative<Dim>& H) {
-  const Eigen::SelfAdjointEigenSolver<StressDerivative<Dim>> eigen(H);
+  // One instantiation for both dimensions: the fixed-size ones double the compile time of this file.
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 9, 9>;
+  const Eigen::SelfAdjointEigenSolver<Small> eigen(H);
   if (eigen.eigenvalues()(0) >= 0) return H;
   const auto& Q = eigen.eigenvectors();
   return Q * eigen.eigenvalues().cwiseMax(0).asDiagonal() * Q.transpose();

@@ -1,15 +1,10 @@
 #include "sem/solve/cholesky.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
 namespace sem {
-
-namespace {
-double zero_level(Eigen::Index n) { return 8 * double(n) * std::numeric_limits<double>::epsilon(); }
-}  // namespace
 
 bool Cholesky::compute(const Eigen::MatrixXd& A) {
   const Eigen::Index n = A.rows();
@@ -41,22 +36,6 @@ double Cholesky::condition_estimate() const {
   if (factor_.rows() == 0) return 1;
   const double ratio = factor_.diagonal().maxCoeff() / factor_.diagonal().minCoeff();
   return ratio * ratio;
-}
-
-bool is_singular(const Eigen::MatrixXd& A) {
-  if (A.rows() == 0) return false;
-  const Eigen::VectorXd diagonal = A.diagonal().cwiseAbs();
-  // A zero on the diagonal of an indefinite matrix is no zero eigenvalue: scale by the row then.
-  Eigen::VectorXd scale(A.rows());
-  for (Eigen::Index i = 0; i < A.rows(); ++i) {
-    const double size = std::max(diagonal(i), zero_level(A.rows()) * A.row(i).norm());
-    if (!(size > 0)) return true;
-    scale(i) = 1 / std::sqrt(size);
-  }
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled, Eigen::EigenvaluesOnly);
-  const auto values = eigen.eigenvalues().cwiseAbs().eval();
-  return values.minCoeff() <= zero_level(A.rows()) * values.maxCoeff();
 }
 
 }  // namespace sem

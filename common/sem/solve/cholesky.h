@@ -2,6 +2,7 @@
 // Cholesky factorisation that tells a singular matrix from a regular one.
 
 #include <Eigen/Core>
+#include <limits>
 
 namespace sem {
 
@@ -31,9 +32,7 @@ class Cholesky {
   bool ok_ = false;
 };
 
-/// True if the symmetric A, scaled to a unit diagonal, has an eigenvalue that is
-/// zero to rounding (or a diagonal entry of zero with all its row): a motion
-/// without stiffness. Computes all eigenvalues: for diagnosis only.
-bool is_singular(const Eigen::MatrixXd& A);
+/// Relative size below which a squared pivot or an eigenvalue of an n by n matrix is rounding.
+inline double zero_level(Eigen::Index n) { return 8 * double(n) * std::numeric_limits<double>::epsilon(); }
 
 }  // namespace sem

@@ -88,4 +88,20 @@ Modes vibration_modes(const System& system, const Eigen::VectorXd& z, int n_mode
   return modes;
 }
 
+bool is_singular(const Eigen::MatrixXd& A) {
+  if (A.rows() == 0) return false;
+  const Eigen::VectorXd diagonal = A.diagonal().cwiseAbs();
+  // A zero on the diagonal of an indefinite matrix is no zero eigenvalue: scale by the row then.
+  Eigen::VectorXd scale(A.rows());
+  for (Eigen::Index i = 0; i < A.rows(); ++i) {
+    const double size = std::max(diagonal(i), zero_level(A.rows()) * A.row(i).norm());
+    if (!(size > 0)) return true;
+    scale(i) = 1 / std::sqrt(size);
+  }
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled, Eigen::EigenvaluesOnly);
+  const auto values = eigen.eigenvalues().cwiseAbs().eval();
+  return values.minCoeff() <= zero_level(A.rows()) * values.maxCoeff();
+}
+
 }  // namespace sem

@@ -21,4 +21,9 @@ struct Modes {
 /// Dense: M phi = mu (K + s M) phi, omega^2 = 1/mu - s, about 10 n^3 operations.
 Modes vibration_modes(const System& system, const Eigen::VectorXd& z, int n_modes);
 
+/// True if the symmetric A, scaled to a unit diagonal, has an eigenvalue that is
+/// zero to rounding (or a diagonal entry of zero with all its row): a motion
+/// without stiffness. Computes all eigenvalues: for diagnosis only.
+bool is_singular(const Eigen::MatrixXd& A);
+
 }  // namespace sem

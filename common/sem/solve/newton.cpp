@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sem/solve/modes.h"
+
 namespace sem {
 
 namespace {
