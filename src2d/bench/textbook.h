@@ -1,7 +1,7 @@
 #pragma once
 // NURBS evaluation as in Piegl and Tiller, The NURBS Book: algorithms A2.1,
-// A2.2, eq. 2.7, A4.1 and A4.3, without allocation. What the library's own
-// evaluation is compared with.
+// A2.2, eq. 2.7, 4.2, 4.12, A4.1 and A4.3, without allocation. What the
+// library's own evaluation is compared with, output for output.
 
 #include <algorithm>
 
@@ -99,6 +99,50 @@ inline Vec<3> surface(const Nurbs<2, 3>& nurbs, const Param<2>& uv,
   const Vec<3> X = A.head<3>() / A[3];
   if (first) *first << (A_u.head<3>() - A_u[3] * X) / A[3], (A_v.head<3>() - A_v[3] * X) / A[3];
   return X;
+}
+
+/// Rational functions of a curve (eq. 4.2) and their slopes: degree + 1 of each.
+template <int Dim>
+void curve_basis(const Nurbs<1, Dim>& nurbs, double u, int* column, double* R, double* R_u) {
+  AxisBasis basis;
+  evaluate_axis(nurbs.knots[0], nurbs.degree[0], u, true, basis);
+  double W = 0, W_u = 0;
+  for (int k = 0; k <= nurbs.degree[0]; ++k) {
+    column[k] = basis.first + k;
+    const double w = nurbs.weights[column[k]];
+    W += R[k] = basis.value[k] * w;
+    W_u += R_u[k] = basis.slope[k] * w;
+  }
+  const double inverse = 1 / W;
+  for (int k = 0; k <= nurbs.degree[0]; ++k) {
+    R[k] *= inverse;
+    R_u[k] = (R_u[k] - R[k] * W_u) * inverse;
+  }
+}
+
+/// Rational functions of a surface (eq. 4.12) and their derivatives, u fastest.
+inline void surface_basis(const Nurbs<2, 3>& nurbs, const Param<2>& uv, int* column, double* R,
+                          double* R_u, double* R_v) {
+  AxisBasis u, v;
+  evaluate_axis(nurbs.knots[0], nurbs.degree[0], uv[0], true, u);
+  evaluate_axis(nurbs.knots[1], nurbs.degree[1], uv[1], true, v);
+  const int n_u = n_control(nurbs, 0);
+  double W = 0, W_u = 0, W_v = 0;
+  int i = 0;
+  for (int l = 0; l <= nurbs.degree[1]; ++l)
+    for (int k = 0; k <= nurbs.degree[0]; ++k, ++i) {
+      column[i] = u.first + k + n_u * (v.first + l);
+      const double w = nurbs.weights[column[i]];
+      W += R[i] = u.value[k] * v.value[l] * w;
+      W_u += R_u[i] = u.slope[k] * v.value[l] * w;
+      W_v += R_v[i] = u.value[k] * v.slope[l] * w;
+    }
+  const double inverse = 1 / W;
+  for (int k = 0; k < i; ++k) {
+    R[k] *= inverse;
+    R_u[k] = (R_u[k] - R[k] * W_u) * inverse;
+    R_v[k] = (R_v[k] - R[k] * W_v) * inverse;
+  }
 }
 
 }  // namespace sem::textbook

@@ -75,6 +75,35 @@ TEST_CASE_TEMPLATE("basis times control points is the point and its derivatives"
   }
 }
 
+TEST_CASE_TEMPLATE("a lower order gives the same values and nothing above it", T, PlaneCurve,
+                   Surface, SpaceCurve) {
+  std::mt19937 random(35);
+  BasisValues<T::param_dim> all, some;
+  for (int trial = 0; trial < 100; ++trial) {
+    const auto nurbs = random_of<T>(random, trial, true);
+    const auto u = random_parameter(random, nurbs);
+    const auto jet = derivatives(nurbs, u);
+    evaluate_basis(nurbs, u, 2, all);
+    for (int order = 0; order < 2; ++order) {
+      const auto low = derivatives(nurbs, u, order);
+      CHECK((low.point - jet.point).norm() < 1e-14);
+      if (order == 1) CHECK((low.first - jet.first).norm() <= 1e-13 * jet.first.norm());
+      if (order == 0) CHECK(low.first.norm() == 0);
+      for (const auto& second : low.second) CHECK(second.norm() == 0);
+      evaluate_basis(nurbs, u, order, some);
+      CHECK(some.column == all.column);
+      for (size_t k = 0; k < all.value.size(); ++k)
+        CHECK(some.value[k] == doctest::Approx(all.value[k]).epsilon(1e-14));
+      for (int a = 0; a < T::param_dim; ++a) {
+        CHECK(some.first[a].size() == (order == 1 ? all.value.size() : 0));
+        for (size_t k = 0; k < some.first[a].size(); ++k)
+          CHECK(std::abs(some.first[a][k] - all.first[a][k]) < 1e-12);
+      }
+      for (const auto& second : some.second) CHECK(second.empty());
+    }
+  }
+}
+
 TEST_CASE_TEMPLATE("first and second derivatives match finite differences", T, PlaneCurve, Surface,
                    SpaceCurve) {
   std::mt19937 random(33);

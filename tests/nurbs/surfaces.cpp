@@ -247,6 +247,22 @@ TEST_CASE("closest point of a point on a surface is that point") {
   }
 }
 
+TEST_CASE("closest point of a point at any height over a surface is at most as far") {
+  std::mt19937 random(28);
+  for (int trial = 0; trial < 150; ++trial) {
+    const auto surface = random_surface(random, 1 + trial % 3, 1 + random() % 3, trial % 2);
+    const auto u = random_parameter(random, surface);
+    const Vec<3> normal = DimTraits<3>::area_normal(derivatives(surface, u, 1).first).normalized();
+    const auto part = prepare(surface);
+    for (double height = 1e-13; height < 1e-3; height *= 10) {
+      const double distance = closest_point<3>(part, point(surface, u) + height * normal).distance;
+      CHECK(distance <= height + 1e-14);
+    }
+    const Vec<3> X = point(surface, u) + 1e-4 * normal;
+    CHECK(closest_point<3>(part, X).distance <= brute_force_distance(surface, X) + 1e-13);
+  }
+}
+
 TEST_CASE("closest point of sphere and flat patch is exact, also where many points tie") {
   std::mt19937 random(27);
   const auto ball = prepare(sphere());

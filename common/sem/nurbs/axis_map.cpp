@@ -5,8 +5,12 @@
 namespace sem::detail {
 
 int find_span(const std::vector<double>& knots, int degree, double u) {
-  const auto begin = knots.begin() + degree, end = knots.end() - degree - 1;
-  int k = std::max(0, int(std::upper_bound(begin, end, u) - begin) - 1) + degree;
+  int k = degree;  // the last of the spans that starts at u or before, by bisection without jumps
+  for (int n = int(knots.size()) - 2 * degree - 1; n > 1;) {
+    const int half = n / 2;
+    k = knots[k + half] <= u ? k + half : k;
+    n -= half;
+  }
   while (k > degree && knots[k] == knots[k + 1]) --k;  // the end of the domain
   while (knots[k] == knots[k + 1]) ++k;
   return k;

@@ -45,8 +45,10 @@ struct Derivatives {
 template <int ParamDim, int Dim>
 Vec<Dim> point(const Nurbs<ParamDim, Dim>& nurbs, const Param<ParamDim>& u);
 
-/// Position and derivatives to order 2, same conventions. Does not allocate.
+/// Position and derivatives up to `order` (0 to 2; higher ones are set to 0),
+/// same conventions. Does not allocate.
 template <int ParamDim, int Dim>
-Derivatives<ParamDim, Dim> derivatives(const Nurbs<ParamDim, Dim>& nurbs, const Param<ParamDim>& u);
+Derivatives<ParamDim, Dim> derivatives(const Nurbs<ParamDim, Dim>& nurbs, const Param<ParamDim>& u,
+                                       int order = 2);
 
 }  // namespace sem

@@ -2,6 +2,7 @@
 // Internal: polynomials of one variable on [0, 1] in Bernstein form,
 // f(s) = sum_i c[i] B_i(s), c of length degree + 1.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -119,25 +120,23 @@ inline void bernstein_basis(int degree, double s, int order, int row, double* ou
 }
 
 /// Splits a tensor product patch at s along an axis: c holds n_u by n_v
-/// coefficients of n_values each, u fastest, values of one coefficient
-/// together. `right` may be `c`.
-inline void split_patch(const double* c, const int* degree, int axis, double s, int n_values,
-                        double* left, double* right) {
-  const int n_u = degree[0] + 1, n_v = degree[1] + 1, n = n_u * n_v * n_values;
-  if (right != c)
-    for (int i = 0; i < n; ++i) right[i] = c[i];
-  const int stride = axis == 0 ? n_values : n_u * n_values;
-  const int n_lines = axis == 0 ? n_v : n_u, line_stride = axis == 0 ? n_u * n_values : n_values;
-  for (int line = 0; line < n_lines; ++line)
-    for (int value = 0; value < n_values; ++value) {
-      double* r = right + line * line_stride + value;
-      double* l = left + line * line_stride + value;
-      for (int j = 0; j <= degree[axis]; ++j) {
-        l[j * stride] = r[0];
-        for (int i = 0; i < degree[axis] - j; ++i)
-          r[i * stride] += s * (r[(i + 1) * stride] - r[i * stride]);
-      }
+/// coefficients, u fastest. `right` may be `c`.
+template <int N>
+void split_patch(const Vec<N>* c, const int* degree, int axis, double s, Vec<N>* left,
+                 Vec<N>* right) {
+  const int n_u = degree[0] + 1, n_v = degree[1] + 1;
+  if (right != c) std::copy(c, c + n_u * n_v, right);
+  const int stride = axis == 0 ? 1 : n_u, n_lines = axis == 0 ? n_v : n_u;
+  for (int line = 0; line < n_lines; ++line) {
+    const int start = line * (axis == 0 ? n_u : 1);
+    Vec<N>* r = right + start;
+    Vec<N>* l = left + start;
+    for (int j = 0; j <= degree[axis]; ++j) {
+      l[j * stride] = r[0];
+      for (int i = 0; i < degree[axis] - j; ++i)
+        r[i * stride] += s * (r[(i + 1) * stride] - r[i * stride]);
     }
+  }
 }
 
 }  // namespace sem::detail

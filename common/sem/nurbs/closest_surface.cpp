@@ -4,28 +4,32 @@
 #include "sem/nurbs/bernstein.h"
 #include "sem/nurbs/closest.h"
 
-// Branch and bound on patches. The squared distance is q / v, q = |w (P-X)|^2
-// and v = w^2 in Bernstein form, so min q_i / v_i is a lower bound; it is
-// sharp to second order in the size of the patch. Upper bounds come from
-// projected Newton. A patch is split at the minimum found, where the bound of
-// all four quarters is nearly attained.
+// Branch and bound on patches. A first lower bound of the distance comes from a
+// plane that the convex hull lies beyond. The squared distance is q / v, q =
+// |w (P-X)|^2 and v = w^2 in Bernstein form, so min q_i / v_i is a second one.
+// Upper bounds come from Newton, kept inside the patch. A patch is done when a
+// bound is as far as the best point, or when the minimum m found on it is its
+// only one because q - m v is convex there.
 
 namespace sem {
 namespace {
+
+using Vec4 = Eigen::Vector4d;  // w (P - X), w
 
 constexpr int max_functions = max_nurbs_degree + 1;
 constexpr int max_patches = 50000;  // only a curve of equally close points needs so many
 
 struct Patch {
-  double lower[2], upper[2];  // in [0, 1]^2 of the piece
-  double bound;               // lower bound of the distance
+  Vec<2> lower, upper;  // in [0, 1]^2 of the piece
+  double bound;         // lower bound of the distance
 };
 
 // Kept between calls so that nothing is allocated in the steady state.
 struct Scratch {
-  std::vector<double> coefficients;  // of the stack: w (P - X), w
+  std::vector<Vec4> coefficients;  // of the whole piece, then of the stack
   std::vector<Patch> patches;
-  std::vector<double> square, weight_square;
+  std::vector<Vec4> scaled, square;
+  std::vector<double> f;
   std::vector<std::pair<double, int>> order;
 };
 
@@ -59,35 +63,29 @@ class SurfaceClosest {
     return bound >= least_ - 1e-14 * (least_ + size_);
   }
 
-  double* coefficients(int k) { return &scratch_.coefficients[size_t(k) * 4 * n_]; }
+  Vec4* coefficients(int k) { return &scratch_.coefficients[size_t(k + 1) * n_]; }
+  const Vec4* whole() const { return scratch_.coefficients.data(); }
 
   void reserve(int n_patches) {
     if (int(scratch_.patches.size()) < n_patches) scratch_.patches.resize(n_patches);
-    if (scratch_.coefficients.size() < size_t(n_patches) * 4 * n_)
-      scratch_.coefficients.resize(size_t(n_patches) * 4 * n_);
+    if (scratch_.coefficients.size() < size_t(n_patches + 1) * n_)
+      scratch_.coefficients.resize(size_t(n_patches + 1) * n_);
   }
 
   void search(const BezierPiece<2, 3>& piece) {
     piece_ = &piece;
     n_ = int(piece.weights.size());
-    reserve(4);
+    reserve(1);
     for (int i = 0; i < n_; ++i) {
-      Eigen::Map<Eigen::Vector4d> c(coefficients(0) + 4 * i);
-      c << piece.weights[i] * (piece.points.col(i) - X_), piece.weights[i];
+      const double w = piece.weights[i];
+      scratch_.coefficients[i] << w * (piece.points.col(i) - X_), w;
     }
-    scratch_.patches[0] = {{0, 0}, {1, 1}, lower_bound(coefficients(0))};
-    descend({0.5, 0.5});
+    std::copy(whole(), whole() + n_, coefficients(0));
+    scratch_.patches[0] = {Vec<2>::Zero(), Vec<2>::Ones(), hull_bound(coefficients(0))};
     for (int n = 1, n_patches = 0; n > 0;) {
       const Patch patch = scratch_.patches[n - 1];
-      const double width[2] = {patch.upper[0] - patch.lower[0], patch.upper[1] - patch.lower[1]};
-      if (hopeless(patch.bound) || std::max(width[0], width[1]) < 1e-11 ||
-          ++n_patches > max_patches) {
-        --n;
-        continue;
-      }
-      const Vec<2> start = start_of_descent(patch, coefficients(n - 1));
-      descend(start);
-      if (hopeless(patch.bound)) {
+      if (hopeless(patch.bound) || (patch.upper - patch.lower).maxCoeff() < 1e-11 ||
+          ++n_patches > max_patches || finish(patch, coefficients(n - 1))) {
         --n;
         continue;
       }
@@ -99,128 +97,182 @@ class SurfaceClosest {
         if (scratch_.patches[k].bound < scratch_.patches[top].bound) top = k;
       if (top != n - 1) {
         std::swap(scratch_.patches[top], scratch_.patches[n - 1]);
-        std::swap_ranges(coefficients(top), coefficients(top) + 4 * n_, coefficients(n - 1));
+        std::swap_ranges(coefficients(top), coefficients(top) + n_, coefficients(n - 1));
       }
     }
   }
 
-  // Replaces patch n - 1 by four, split at the best point if it is inside.
+  // Replaces patch n - 1 by its quarters.
   void split(const Patch& patch, int n) {
     reserve(n + 3);
-    double s[2];
-    for (int a = 0; a < 2; ++a) {
-      const double width = patch.upper[a] - patch.lower[a];
-      s[a] = best_piece_ == piece_ ? (best_local_[a] - patch.lower[a]) / width : 0.5;
-      if (!(s[a] > 0.02 && s[a] < 0.98)) s[a] = 0.5;
-    }
-    const int* degree = piece_->degree.data();
+    const auto halve = [&](int from, int axis, int to) {
+      Vec4* c = coefficients(from);
+      detail::split_patch<4>(c, piece_->degree.data(), axis, 0.5, coefficients(to), c);
+    };
     const int i = n - 1;
-    detail::split_patch(coefficients(i), degree, 0, s[0], 4, coefficients(n), coefficients(i));
-    detail::split_patch(coefficients(i), degree, 1, s[1], 4, coefficients(n + 1), coefficients(i));
-    detail::split_patch(coefficients(n), degree, 1, s[1], 4, coefficients(n + 2), coefficients(n));
+    halve(i, 0, n);
+    halve(i, 1, n + 1);
+    halve(n, 1, n + 2);
     const int upper_u[4] = {1, 0, 1, 0}, upper_v[4] = {1, 1, 0, 0};
+    const Vec<2> middle = 0.5 * (patch.lower + patch.upper);
     for (int k = 0; k < 4; ++k) {
       Patch& child = scratch_.patches[i + k];
       child = patch;
-      for (int a = 0; a < 2; ++a) {
-        const double middle = patch.lower[a] + s[a] * (patch.upper[a] - patch.lower[a]);
-        ((a == 0 ? upper_u[k] : upper_v[k]) ? child.lower[a] : child.upper[a]) = middle;
-      }
-      child.bound = std::max(patch.bound, lower_bound(coefficients(i + k)));
+      (upper_u[k] ? child.lower : child.upper)[0] = middle[0];
+      (upper_v[k] ? child.lower : child.upper)[1] = middle[1];
+      child.bound = std::max(patch.bound, hull_bound(coefficients(i + k)));
     }
   }
 
-  // min q_i / v_i over the Bernstein coefficients of degree (2p, 2q).
-  double lower_bound(const double* c) {
+  // Distance of the plane across the direction of the patch's middle.
+  double hull_bound(const Vec4* c) const {
+    const int p = piece_->degree[0];
+    Vec<3> direction = Vec<3>::Zero();
+    for (int corner : {0, p, n_ - 1 - p, n_ - 1}) direction += c[corner].head<3>() / c[corner][3];
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < n_; ++i) least = std::min(least, direction.dot(c[i].head<3>()) / c[i][3]);
+    return least > 0 ? least / direction.norm() : 0;
+  }
+
+  // True if no point of the patch is better than the best one now known.
+  bool finish(const Patch& patch, const Vec4* c) {
+    square_distance(c);
+    const auto& square = scratch_.square;
+    double least = std::numeric_limits<double>::infinity();
+    int where = 0;
+    for (size_t i = 0; i < square.size(); ++i) {
+      const double ratio = square[i].head<3>().sum() / square[i][3];
+      if (ratio < least) {
+        least = ratio;
+        where = int(i);
+      }
+    }
+    if (hopeless(std::sqrt(std::max(0.0, least)))) return true;
+    const int p = 2 * piece_->degree[0], q = 2 * piece_->degree[1];
+    const Vec<2> share(double(where % (p + 1)) / p, double(where / (p + 1)) / q);
+    const Vec<2> start = patch.lower + share.cwiseProduct(patch.upper - patch.lower);
+    return hopeless(bound_from_minimum(patch, descend(start, patch)));
+  }
+
+  // Coefficients of q (first three summed) and v, of degree (2p, 2q) and times
+  // its binomials.
+  void square_distance(const Vec4* c) {
     const int p = piece_->degree[0], q = piece_->degree[1], row = 2 * p + 1;
-    auto& square = scratch_.square;
-    auto& weight_square = scratch_.weight_square;
-    square.assign(size_t(row) * (2 * q + 1), 0.0);
-    weight_square.assign(square.size(), 0.0);
     const double* Bp = detail::binomials(p);
     const double* Bq = detail::binomials(q);
-    for (int j = 0; j <= q; ++j)
-      for (int l = 0; l <= q; ++l)
-        for (int i = 0; i <= p; ++i)
-          for (int k = 0; k <= p; ++k) {
-            const double* a = c + 4 * (j * (p + 1) + i);
-            const double* b = c + 4 * (l * (p + 1) + k);
-            const double factor = Bp[i] * Bp[k] * Bq[j] * Bq[l];
-            const int m = (j + l) * row + i + k;
-            square[m] += factor * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-            weight_square[m] += factor * a[3] * b[3];
-          }
-    double least = std::numeric_limits<double>::infinity();
-    for (size_t m = 0; m < square.size(); ++m)
-      least = std::min(least, square[m] / weight_square[m]);
-    return std::sqrt(std::max(0.0, least));
-  }
-
-  // The corner or centre of a patch closest to X.
-  Vec<2> start_of_descent(const Patch& patch, const double* c) const {
-    const int p = piece_->degree[0];
-    const int corner[4] = {0, p, n_ - 1 - p, n_ - 1};
-    int nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 4; ++k) {
-      Eigen::Map<const Vec<3>> a(c + 4 * corner[k]);
-      const double square = a.squaredNorm() / (c[4 * corner[k] + 3] * c[4 * corner[k] + 3]);
-      if (square < least) {
-        least = square;
-        nearest = k;
+    auto& scaled = scratch_.scaled;
+    auto& square = scratch_.square;
+    scaled.resize(n_);
+    for (int j = 0, a = 0; j <= q; ++j)
+      for (int i = 0; i <= p; ++i, ++a) scaled[a] = Bp[i] * Bq[j] * c[a];
+    square.assign(size_t(row) * (2 * q + 1), Vec4::Zero());
+    for (int j = 0, a = 0; j <= q; ++j)
+      for (int i = 0; i <= p; ++i, ++a) {
+        square[2 * (j * row + i)] += scaled[a].cwiseProduct(scaled[a]);
+        const Vec4 twice = 2 * scaled[a];
+        for (int l = j, b = a + 1; l <= q; ++l)
+          for (int k = l == j ? i + 1 : 0; k <= p; ++k, ++b)
+            square[(j + l) * row + i + k] += twice.cwiseProduct(scaled[b]);
       }
-    }
-    const double share = 0.1;  // into the patch, off a minimum already found at its corner
-    Vec<2> s;
-    for (int a = 0; a < 2; ++a) {
-      const bool upper = a == 0 ? nearest % 2 == 1 : nearest >= 2;
-      const double x = upper ? 1 - share : share;
-      s[a] = patch.lower[a] + x * (patch.upper[a] - patch.lower[a]);
-    }
-    return s;
   }
 
   struct Jet {
     Vec<3> offset;  // C - X
+    double weight;
     Eigen::Matrix<double, 3, 2> first;
     Vec<3> second[3];  // uu, uv, vv
   };
+
+  // A local minimum on a patch; `fixed` where it is held by a side of the patch.
+  struct Descent {
+    Vec<2> s, gradient;  // of half the squared distance
+    bool fixed[2];
+    Jet jet;
+  };
+
+  // Lower bound of the distance from a minimum m of its square. If f = q - m v
+  // is convex, f >= g.d + (a d_u^2 - 2 c |d_u d_v| + b d_v^2) / 2 with its
+  // gradient g at the minimum and bounds a, b, c of its second derivatives:
+  // nothing on the patch is closer than by rounding. 0 if f is not convex.
+  double bound_from_minimum(const Patch& patch, const Descent& found) {
+    const double m = found.jet.offset.squaredNorm();
+    const int p = 2 * piece_->degree[0], q = 2 * piece_->degree[1], row = p + 1;
+    const double* Bp = detail::binomials(p);
+    const double* Bq = detail::binomials(q);
+    const auto& square = scratch_.square;
+    auto& f = scratch_.f;
+    f.resize(square.size());
+    double least_v = std::numeric_limits<double>::infinity();
+    for (int j = 0, i = 0; j <= q; ++j)
+      for (int k = 0; k <= p; ++k, ++i) {
+        const double inverse = 1 / (Bp[k] * Bq[j]);
+        f[i] = (square[i].head<3>().sum() - m * square[i][3]) * inverse;
+        least_v = std::min(least_v, square[i][3] * inverse);
+      }
+    double uu = std::numeric_limits<double>::infinity(), vv = uu, uv = 0;
+    for (int j = 0; j <= q; ++j)
+      for (int k = 0; k <= p; ++k) {
+        const double* at = &f[j * row + k];
+        if (k + 2 <= p) uu = std::min(uu, at[0] - 2 * at[1] + at[2]);
+        if (j + 2 <= q) vv = std::min(vv, at[0] - 2 * at[row] + at[2 * row]);
+        if (k < p && j < q) uv = std::max(uv, std::abs(at[0] - at[1] - at[row] + at[row + 1]));
+      }
+    uu *= p * (p - 1);
+    vv *= q * (q - 1);
+    uv *= p * q;
+    const double determinant = uu * vv - uv * uv;
+    if (!(uu > 0 && vv > 0 && determinant > 1e-6 * uu * vv)) return 0;
+    const double v = found.jet.weight * found.jet.weight;
+    Vec<2> g = 2 * v * found.gradient.cwiseProduct(patch.upper - patch.lower).cwiseAbs();
+    for (int a = 0; a < 2; ++a)
+      if (found.fixed[a]) g[a] = 0;  // f rises from this side of the patch
+    const double slack =
+        0.5 * (vv * g[0] * g[0] + 2 * uv * g[0] * g[1] + uu * g[1] * g[1]) / determinant;
+    return std::sqrt(std::max(0.0, m - slack / least_v));
+  }
 
   Jet evaluate(const Vec<2>& s) const {
     double B[2][3][max_functions];
     for (int a = 0; a < 2; ++a)
       detail::bernstein_basis(piece_->degree[a], s[a], 2, max_functions, B[a][0]);
     constexpr int order[6][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
-    Eigen::Matrix<double, 4, 6> A = Eigen::Matrix<double, 4, 6>::Zero();
-    for (int j = 0, i = 0; j <= piece_->degree[1]; ++j)
-      for (int k = 0; k <= piece_->degree[0]; ++k, ++i) {
-        const double w = piece_->weights[i];
-        const Vec<3> a = w * (piece_->points.col(i) - X_);
-        for (int m = 0; m < 6; ++m) {
-          const double product = B[0][order[m][0]][k] * B[1][order[m][1]][j];
-          A.col(m).head<3>() += product * a;
-          A(3, m) += product * w;
-        }
-      }
-    const double w = A(3, 0);
+    Vec4 A[6];
+    for (auto& sum : A) sum.setZero();
+    const Vec4* c = whole();
+    for (int j = 0; j <= piece_->degree[1]; ++j) {
+      Vec4 row[3] = {Vec4::Zero(), Vec4::Zero(), Vec4::Zero()};
+      for (int k = 0; k <= piece_->degree[0]; ++k, ++c)
+        for (int t = 0; t < 3; ++t) row[t] += B[0][t][k] * *c;
+      for (int m = 0; m < 6; ++m) A[m] += B[1][order[m][1]][j] * row[order[m][0]];
+    }
     Jet jet;
-    jet.offset = A.col(0).head<3>() / w;
-    for (int a = 0; a < 2; ++a)
-      jet.first.col(a) = (A.col(1 + a).head<3>() - A(3, 1 + a) * jet.offset) / w;
+    jet.weight = A[0][3];
+    const double inverse = 1 / jet.weight;
+    for (auto& derivative : A) derivative *= inverse;
+    jet.offset = A[0].head<3>();
+    for (int a = 0; a < 2; ++a) jet.first.col(a) = A[1 + a].head<3>() - A[1 + a][3] * jet.offset;
     for (int m = 0; m < 3; ++m) {
       const int a = m == 2 ? 1 : 0, b = m == 0 ? 0 : 1;
-      jet.second[m] = (A.col(3 + m).head<3>() - A(3, 1 + a) * jet.first.col(b) -
-                       A(3, 1 + b) * jet.first.col(a) - A(3, 3 + m) * jet.offset) /
-                      w;
+      jet.second[m] = A[3 + m].head<3>() - A[1 + a][3] * jet.first.col(b) -
+                      A[1 + b][3] * jet.first.col(a) - A[3 + m][3] * jet.offset;
     }
     return jet;
   }
 
-  // Newton with Gauss-Newton as a fallback, kept inside the piece.
-  void descend(Vec<2> s) {
-    Jet jet = evaluate(s);
+  // Newton with Gauss-Newton as a fallback, kept inside the patch.
+  Descent descend(const Vec<2>& start, const Patch& patch) {
+    Descent at;
+    at.s = start;
+    at.jet = evaluate(at.s);
+    const auto differentiate = [&] {
+      at.gradient = at.jet.first.transpose() * at.jet.offset;
+      for (int a = 0; a < 2; ++a)
+        at.fixed[a] = (at.s[a] <= patch.lower[a] && at.gradient[a] >= 0) ||
+                      (at.s[a] >= patch.upper[a] && at.gradient[a] <= 0);
+    };
+    differentiate();
     for (int iteration = 0; iteration < 40; ++iteration) {
-      const Vec<2> gradient = jet.first.transpose() * jet.offset;
+      const Jet& jet = at.jet;
       Mat<2> normal = jet.first.transpose() * jet.first;
       const double damping = 1e-14 * normal.trace() + 1e-300;
       normal.diagonal().array() += damping;
@@ -228,30 +280,30 @@ class SurfaceClosest {
       hessian(0, 0) += jet.offset.dot(jet.second[0]);
       hessian(1, 1) += jet.offset.dot(jet.second[2]);
       hessian(0, 1) = hessian(1, 0) += jet.offset.dot(jet.second[1]);
-      bool fixed[2];
-      for (int a = 0; a < 2; ++a)
-        fixed[a] = (s[a] <= 0 && gradient[a] > 0) || (s[a] >= 1 && gradient[a] < 0);
+      const bool* fixed = at.fixed;
       const bool convex = (fixed[0] || hessian(0, 0) > 0) && (fixed[1] || hessian(1, 1) > 0) &&
                           (fixed[0] || fixed[1] || hessian.determinant() > 0);
-      const Vec<2> step = solve(convex ? hessian : normal, gradient, fixed);
+      const Vec<2> step = solve(convex ? hessian : normal, at.gradient, fixed);
       const double old = jet.offset.squaredNorm();
       const double least_length = 1e-13 / (1e-300 + step.cwiseAbs().maxCoeff());
+      double length = 1;
       Vec<2> next;
-      for (double length = 1; length == 1 || length > least_length; length *= 0.5) {
-        next = (s - length * step).cwiseMax(0.0).cwiseMin(1.0);
-        jet = evaluate(next);
-        if (jet.offset.squaredNorm() <= old) break;
+      Jet there;
+      for (; length == 1 || length > least_length; length *= 0.5) {
+        next = (at.s - length * step).cwiseMax(patch.lower).cwiseMin(patch.upper);
+        there = evaluate(next);
+        if (there.offset.squaredNorm() <= old) break;
       }
-      const double moved = (next - s).cwiseAbs().maxCoeff();
-      if (jet.offset.squaredNorm() > old) {
-        jet = evaluate(s);
-        break;
-      }
-      s = next;
-      if (moved < 1e-15) break;
-      if (iteration == 8 && jet.offset.norm() > 2 * least_ + size_) break;
+      if (there.offset.squaredNorm() > old) break;
+      const double moved = (next - at.s).cwiseAbs().maxCoeff();
+      at.s = next;
+      at.jet = there;
+      differentiate();
+      // Newton squares the error: after such a step the next is rounding.
+      if (moved < (convex && length == 1 ? 1e-9 : 1e-15)) break;
     }
-    offer(s, jet.offset);
+    offer(at.s, at.jet.offset);
+    return at;
   }
 
   static Vec<2> solve(const Mat<2>& A, const Vec<2>& b, const bool* fixed) {
@@ -269,8 +321,6 @@ class SurfaceClosest {
     for (int a = 0; a < 2; ++a)
       best_.u[a] = s[a] == 1 ? piece_->upper[a]
                              : piece_->lower[a] + s[a] * (piece_->upper[a] - piece_->lower[a]);
-    best_local_ = s;
-    best_piece_ = piece_;
   }
 
   const PreparedNurbs<2, 3>& part_;
@@ -278,8 +328,6 @@ class SurfaceClosest {
   Scratch& scratch_;
   double least_, size_;
   ClosestPoint<3> best_;
-  Vec<2> best_local_;
-  const BezierPiece<2, 3>* best_piece_ = nullptr;
   const BezierPiece<2, 3>* piece_ = nullptr;
   int n_ = 0;
 };

@@ -32,10 +32,10 @@ struct Candidate {
 
 // Kept between calls so that nothing is allocated in the steady state.
 struct Scratch {
-  std::vector<double> coefficients;  // of the stack: f, g interleaved
+  std::vector<Vec<2>> coefficients;  // of the stack: f, g
   std::vector<Patch> patches;
   std::vector<Candidate> candidates;
-  std::vector<double> whole;  // f, g of a whole piece, for degenerate hits
+  std::vector<Vec<2>> whole;  // f, g of a whole piece, for degenerate hits
 };
 
 struct Jet {
@@ -73,12 +73,12 @@ class SurfaceHits {
     return false;
   }
 
-  double* coefficients(int k) { return &scratch_.coefficients[size_t(k) * 2 * n_]; }
+  Vec<2>* coefficients(int k) { return &scratch_.coefficients[size_t(k) * n_]; }
 
   void reserve(int n_patches) {
     if (int(scratch_.patches.size()) < n_patches) scratch_.patches.resize(n_patches);
-    if (scratch_.coefficients.size() < size_t(n_patches) * 2 * n_)
-      scratch_.coefficients.resize(size_t(n_patches) * 2 * n_);
+    if (scratch_.coefficients.size() < size_t(n_patches) * n_)
+      scratch_.coefficients.resize(size_t(n_patches) * n_);
   }
 
   void search(const BezierPiece<2, 3>& piece) {
@@ -86,17 +86,17 @@ class SurfaceHits {
     n_ = int(piece.weights.size());
     reserve(2 * max_halvings + 4);
     f_tolerance_ = tolerance_ * piece.weights.maxCoeff();
-    double* whole = coefficients(0);
+    Vec<2>* whole = coefficients(0);
     for (int i = 0; i < n_; ++i) {
       const Vec<3> X = piece.points.col(i) - line_.origin;
-      for (int k = 0; k < 2; ++k) whole[2 * i + k] = piece.weights[i] * normals_.col(k).dot(X);
+      for (int k = 0; k < 2; ++k) whole[i][k] = piece.weights[i] * normals_.col(k).dot(X);
     }
     scratch_.patches[0] = {{0, 0}, {1, 1}, {0, 0}};
     n_patches_ = 0;
     bool along = false;
     for (int n = 1; n > 0;) {
       Patch& right = scratch_.patches[n - 1];
-      double* c = coefficients(n - 1);
+      Vec<2>* c = coefficients(n - 1);
       if (finish(right, c)) {
         along = along || n_patches_ > max_patches;
         --n;
@@ -108,17 +108,17 @@ class SurfaceHits {
       left.upper[axis] = right.lower[axis] = 0.5 * (right.lower[axis] + right.upper[axis]);
       ++right.halvings[axis];
       ++left.halvings[axis];
-      detail::split_patch(c, piece.degree.data(), axis, 0.5, 2, coefficients(n), c);
+      detail::split_patch<2>(c, piece.degree.data(), axis, 0.5, coefficients(n), c);
       ++n;
     }
     if (along) add_edges();
   }
 
   // Whether a linear combination of f and g has no root by its hull.
-  bool excluded(const double* c, double a, double b) const {
-    double lowest = a * c[0] + b * c[1], highest = lowest;
+  bool excluded(const Vec<2>* c, double a, double b) const {
+    double lowest = a * c[0][0] + b * c[0][1], highest = lowest;
     for (int i = 1; i < n_; ++i) {
-      const double value = a * c[2 * i] + b * c[2 * i + 1];
+      const double value = a * c[i][0] + b * c[i][1];
       lowest = std::min(lowest, value);
       highest = std::max(highest, value);
     }
@@ -126,14 +126,14 @@ class SurfaceHits {
     return lowest > tolerance || highest < -tolerance;
   }
 
-  Jet evaluate(const double* c, const Vec<2>& s) const {
+  Jet evaluate(const Vec<2>* c, const Vec<2>& s) const {
     double B[2][2][max_functions];
     for (int a = 0; a < 2; ++a)
       detail::bernstein_basis(piece_->degree[a], s[a], 1, max_functions, B[a][0]);
     Jet jet{Vec<2>::Zero(), Mat<2>::Zero()};
     for (int j = 0, i = 0; j <= piece_->degree[1]; ++j)
       for (int k = 0; k <= piece_->degree[0]; ++k, ++i) {
-        const Vec<2> value(c[2 * i], c[2 * i + 1]);
+        const Vec<2>& value = c[i];
         jet.value += B[0][0][k] * B[1][0][j] * value;
         jet.jacobian.col(0) += B[0][1][k] * B[1][0][j] * value;
         jet.jacobian.col(1) += B[0][0][k] * B[1][1][j] * value;
@@ -142,7 +142,7 @@ class SurfaceHits {
   }
 
   // True if the patch is done: excluded, or its hits are added.
-  bool finish(const Patch& patch, const double* c) {
+  bool finish(const Patch& patch, const Vec<2>* c) {
     ++n_patches_;
     if (excluded(c, 1, 0) || excluded(c, 0, 1)) return true;
     const Mat<2> J = evaluate(c, {0.5, 0.5}).jacobian;
@@ -168,14 +168,14 @@ class SurfaceHits {
   }
 
   // Diagonal dominance of inverse * Jacobian over the whole patch.
-  bool at_most_one(const double* c, const Mat<2>& inverse) const {
+  bool at_most_one(const Vec<2>* c, const Mat<2>& inverse) const {
     double least[2] = {1e300, 1e300}, largest[2] = {0, 0};
     const int n_u = piece_->degree[0] + 1;
     for (int i = 0; i < n_; ++i)
       for (int axis = 0; axis < 2; ++axis) {
         const int next = axis == 0 ? i + 1 : i + n_u;
         if (axis == 0 ? next % n_u == 0 : next >= n_) continue;
-        const Vec<2> difference(c[2 * next] - c[2 * i], c[2 * next + 1] - c[2 * i + 1]);
+        const Vec<2> difference = c[next] - c[i];
         const Vec<2> slope = piece_->degree[axis] * (inverse * difference);
         least[axis] = std::min(least[axis], slope[axis]);
         largest[1 - axis] = std::max(largest[1 - axis], std::abs(slope[1 - axis]));
@@ -184,7 +184,7 @@ class SurfaceHits {
   }
 
   // Newton on a patch with at most one root; false if that settles nothing.
-  bool add_simple(const Patch& patch, const double* c) {
+  bool add_simple(const Patch& patch, const Vec<2>* c) {
     Vec<2> s(0.5, 0.5);
     for (int iteration = 0; iteration < 30; ++iteration) {
       const Jet jet = evaluate(c, s);
@@ -206,7 +206,7 @@ class SurfaceHits {
 
   // Least |(f, g)| in a box by Gauss-Newton; coordinates that would leave it
   // stay on its boundary.
-  Vec<2> least_squares(const double* c, Vec<2> s, const Vec<2>& lower, const Vec<2>& upper) const {
+  Vec<2> least_squares(const Vec<2>* c, Vec<2> s, const Vec<2>& lower, const Vec<2>& upper) const {
     for (int iteration = 0; iteration < 20; ++iteration) {
       const Jet jet = evaluate(c, s);
       Mat<2> A = jet.jacobian.transpose() * jet.jacobian;
@@ -240,7 +240,7 @@ class SurfaceHits {
   // Where a stretch along the line leaves the piece: its corners, and the
   // roots of f or g on its edges (sampled signs, then bisection).
   void add_edges() {
-    const double* whole = whole_coefficients();
+    const Vec<2>* whole = whole_coefficients();
     constexpr int n_samples = 64;
     const double reach = part_.box.diagonal() / n_samples;
     for (int axis = 0; axis < 2; ++axis)
@@ -265,12 +265,12 @@ class SurfaceHits {
       }
   }
 
-  const double* whole_coefficients() {
-    scratch_.whole.resize(2 * n_);
+  const Vec<2>* whole_coefficients() {
+    scratch_.whole.resize(n_);
     for (int i = 0; i < n_; ++i) {
       const Vec<3> X = piece_->points.col(i) - line_.origin;
       for (int k = 0; k < 2; ++k)
-        scratch_.whole[2 * i + k] = piece_->weights[i] * normals_.col(k).dot(X);
+        scratch_.whole[i][k] = piece_->weights[i] * normals_.col(k).dot(X);
     }
     return scratch_.whole.data();
   }
@@ -285,7 +285,7 @@ class SurfaceHits {
     for (int a = 0; a < 2; ++a)
       hit.u[a] = s[a] == 1 ? piece_->upper[a]
                            : piece_->lower[a] + s[a] * (piece_->upper[a] - piece_->lower[a]);
-    const Vec<3> normal = DimTraits<3>::area_normal(derivatives(part_.nurbs, hit.u).first);
+    const Vec<3> normal = DimTraits<3>::area_normal(derivatives(part_.nurbs, hit.u, 1).first);
     hit.tangent =
         std::abs(normal.dot(line_.direction)) <= 1e-6 * normal.norm() * line_.direction.norm();
     hit.crosses = !hit.tangent;
@@ -296,7 +296,7 @@ class SurfaceHits {
     return true;
   }
 
-  int axis_to_split(const Patch& patch, const double* c) const {
+  int axis_to_split(const Patch& patch, const Vec<2>* c) const {
     double variation[2] = {0, 0};
     const int n_u = piece_->degree[0] + 1;
     for (int i = 0; i < n_; ++i)
@@ -304,8 +304,8 @@ class SurfaceHits {
         const int next = axis == 0 ? i + 1 : i + n_u;
         if (axis == 0 ? next % n_u == 0 : next >= n_) continue;
         for (int k = 0; k < 2; ++k)
-          variation[axis] = std::max(
-              variation[axis], piece_->degree[axis] * std::abs(c[2 * next + k] - c[2 * i + k]));
+          variation[axis] =
+              std::max(variation[axis], piece_->degree[axis] * std::abs(c[next][k] - c[i][k]));
       }
     // Not the longest way in the plane alone: keep patches of bounded shape.
     if (std::abs(patch.halvings[0] - patch.halvings[1]) > 3)
