@@ -65,7 +65,7 @@ class FramePainter::Drawing {
         scene_(scene),
         model_(model),
         setup_(setup),
-        z_(state.z),
+        p_(control_points(model.discretization.unknowns, state.z)),
         state_(state),
         unit_(unit(canvas)),
         area_(area(canvas)),
@@ -74,7 +74,7 @@ class FramePainter::Drawing {
   void draw() {
     axes();
     canvas_.push_clip(area_);
-    const auto& rest = model_.system.rest;
+    const Points<2> rest = rest_controls(model_.discretization.boundary);
     for (int i = 0; i < setup_.outline.n_parts(); ++i)
       canvas_.stroke(view_.map(setup_.outline.part(i, rest)),
                      {.color = {0.62, 0.63, 0.66}, .width = unit_, .dash = {5 * unit_, 4 * unit_}});
@@ -125,7 +125,7 @@ class FramePainter::Drawing {
   }
 
   void solids() {
-    for (const auto& region : setup_.outline.regions(z_)) {
+    for (const auto& region : setup_.outline.regions(p_)) {
       std::vector<Polyline> loops;
       for (const auto& loop : region.loops) loops.push_back(view_.map(loop));
       canvas_.fill(loops, tint(region.solid));
@@ -135,7 +135,7 @@ class FramePainter::Drawing {
   // Discs of the area that the points stand for. Returns where the colour scale ends.
   double stresses() {
     const auto& quadrature = model_.discretization.quadrature;
-    const Eigen::VectorXd stress = von_mises(model_, z_);
+    const Eigen::VectorXd stress = von_mises(model_, state_.z);
     for (const double value : stress) {
       if (std::isnan(value))
         ++n_inverted_;
@@ -145,7 +145,7 @@ class FramePainter::Drawing {
     const double limit = setup_.stress_limit > 0 ? setup_.stress_limit
                          : largest_ > 0          ? round_up(largest_)
                                                  : 0;
-    const Points<2> x = evaluate(model_.discretization.interior, z_);
+    const Points<2> x = evaluate(model_.discretization.interior, state_.z);
     for (int k = 0; k < quadrature.size(); ++k) {
       const double size = std::clamp(0.8 * std::sqrt(quadrature.weight[k]) * view_.scale(),
                                      2.5 * unit_, 15 * unit_);
@@ -157,16 +157,16 @@ class FramePainter::Drawing {
 
   void boundary() {
     for (int i = 0; i < setup_.outline.n_parts(); ++i)
-      canvas_.stroke(view_.map(setup_.outline.part(i, z_)),
+      canvas_.stroke(view_.map(setup_.outline.part(i, p_)),
                      {.color = ink, .width = 2 * unit_, .cap = Stroke::Cap::round});
     for (int i = 0; i < setup_.outline.n_parts(); ++i) {
-      const Polyline line = setup_.outline.part(i, z_);
+      const Polyline line = setup_.outline.part(i, p_);
       for (const auto& end : {line.front(), line.back()})
         canvas_.marker(view_.map(end), MarkerShape::circle, 7 * unit_, ink);
     }
   }
 
-  Vec<2> control(int c) const { return view_.map(Vec<2>(z_.segment<2>(2 * c))); }
+  Vec<2> control(int c) const { return view_.map(Vec<2>(p_.col(c))); }
 
   void controls() {
     const auto& b = model_.discretization.boundary;
@@ -184,8 +184,9 @@ class FramePainter::Drawing {
   void pins() {
     const int n_controls = model_.discretization.boundary.n_controls();
     std::vector<std::array<bool, 2>> held(n_controls, {false, false});
-    for (const auto& pin : model_.pinned)
-      for (const int entry : pin) held[entry / 2][entry % 2] = true;
+    for (size_t i = 0; i < model_.held.size(); ++i)
+      for (const int c : model_.held[i].controls)
+        for (int a = 0; a < 2; ++a) held[c][a] |= scene_.pins[i].axes[a];
     for (int c = 0; c < n_controls; ++c) pin(control(c), held[c][0], held[c][1]);
   }
 
@@ -253,7 +254,7 @@ class FramePainter::Drawing {
   const Scene<2>& scene_;
   const Model<2>& model_;
   const Setup& setup_;
-  const Eigen::VectorXd& z_;
+  const Points<2> p_;  // deformed control points
   const State& state_;
   const double unit_;  // pixels
   const Box<2> area_;  // of the world, in pixels

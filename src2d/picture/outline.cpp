@@ -74,30 +74,30 @@ Outline::Walk Outline::walk(const Discretization<2>& discretization, const Loop<
   return walk;
 }
 
-Polyline Outline::part(int part, const Eigen::VectorXd& z) const {
+Polyline Outline::part(int part, const Points<2>& p) const {
   const Curve& curve = curves_[part];
   Polyline line(curve.row.size() - 1, Vec<2>::Zero());
   for (size_t k = 0; k < line.size(); ++k)
     for (int e = curve.row[k]; e < curve.row[k + 1]; ++e)
-      line[k] += curve.value[e] * z.segment<2>(2 * curve.column[e]);
+      line[k] += curve.value[e] * p.col(curve.column[e]);
   return line;
 }
 
-Polyline Outline::loop(const Walk& walk, const Eigen::VectorXd& z) const {
+Polyline Outline::loop(const Walk& walk, const Points<2>& p) const {
   Polyline all;
   for (const auto& [index, backward] : walk) {
-    Polyline line = part(index, z);
+    Polyline line = part(index, p);
     if (backward) std::reverse(line.begin(), line.end());
     all.insert(all.end(), line.begin(), line.end());
   }
   return all;
 }
 
-std::vector<Outline::Region> Outline::regions(const Eigen::VectorXd& z) const {
+std::vector<Outline::Region> Outline::regions(const Points<2>& p) const {
   std::vector<Region> result;
   for (const auto& region : regions_) {
     auto& loops = result.emplace_back(Region{region.solid, {}}).loops;
-    for (const auto& walk : region.walks) loops.push_back(loop(walk, z));
+    for (const auto& walk : region.walks) loops.push_back(loop(walk, p));
   }
   return result;
 }

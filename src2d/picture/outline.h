@@ -12,8 +12,8 @@ class Outline {
   explicit Outline(const Discretization<2>& discretization);
 
   int n_parts() const { return int(curves_.size()); }
-  /// Points along a part for unknowns z, m.
-  Polyline part(int part, const Eigen::VectorXd& z) const;
+  /// Points along a part for control points p, m.
+  Polyline part(int part, const Points<2>& p) const;
 
   /// What encloses material, by the rule of the inside (loops.h): each region is a loop with the
   /// holes in it, to be filled by parity. Gaps are closed by straight lines. m.
@@ -21,7 +21,7 @@ class Outline {
     int solid;
     std::vector<Polyline> loops;
   };
-  std::vector<Region> regions(const Eigen::VectorXd& z) const;
+  std::vector<Region> regions(const Points<2>& p) const;
 
  private:
   // A part; point k is sum_e value[e] p[column[e]], e in [row[k], row[k+1]).
@@ -38,7 +38,7 @@ class Outline {
 
   static Curve sample(const PreparedNurbs<1, 2>& part, int first_control);
   static Walk walk(const Discretization<2>& discretization, const Loop<2>& loop);
-  Polyline loop(const Walk& walk, const Eigen::VectorXd& z) const;
+  Polyline loop(const Walk& walk, const Points<2>& p) const;
 
   std::vector<Curve> curves_;
   std::vector<WalkRegion> regions_;

@@ -17,9 +17,10 @@ void enlarge(Box<2>& box, double margin) {
 
 // Rest positions of the control points that a pin holds.
 std::vector<Vec<2>> pinned_points(const Model<2>& model) {
+  const Points<2> rest = rest_controls(model.discretization.boundary);
   std::vector<Vec<2>> points;
-  for (const auto& pin : model.pinned)
-    for (const int entry : pin) points.push_back(model.system.rest.segment<2>(2 * (entry / 2)));
+  for (const auto& held : model.held)
+    for (const int c : held.controls) points.push_back(rest.col(c));
   return points;
 }
 
@@ -110,8 +111,8 @@ Box<2> view_box(const Scene<2>& scene, const Model<2>& model) {
   Box<2> rest = model.discretization.boundary.box;
   const double size = rest.diagonal();
   if (scene.analysis.kind != AnalysisKind::dynamics) {
-    for (int c = 0; c < model.target.size() / 2; ++c)
-      rest.include(Vec<2>(model.target.segment<2>(2 * c)));
+    const Points<2> target = control_points(model.discretization.unknowns, model.target);
+    for (int c = 0; c < target.cols(); ++c) rest.include(Vec<2>(target.col(c)));
     enlarge(rest, 0.12 * size);
     return rest;
   }

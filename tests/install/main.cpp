@@ -52,7 +52,7 @@ int main() {
 
   const Material material{MaterialModel::neo_log, 1e5, 0.3, 1000};
   const MaterialField field{{material}, std::vector<int>(body.quadrature.size(), 0)};
-  const Eigen::MatrixXd stability = stability_matrix(body.on_boundary, body.samples);
+  const Eigen::MatrixXd stability = stability_matrix(body.on_boundary, body.samples, body.unknowns);
   InternalEnergy<2> energy(body.interior, body.quadrature.weight, field, 1e5 * stability);
   const Eigen::VectorXd mass = material.density * body.quadrature.weight;
   const Points<2> rest = rest_controls(body.boundary);

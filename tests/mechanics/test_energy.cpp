@@ -27,7 +27,7 @@ template <int Dim>
 struct Fixture {
   Discretization<Dim> d = small_box<Dim>();
   VectorXd rest = test::stacked<Dim>(rest_controls(d.boundary));
-  MatrixXd S = stability_matrix(d.on_boundary, d.samples);
+  MatrixXd S = stability_matrix(d.on_boundary, d.samples, d.unknowns);
 
   InternalEnergy<Dim> energy(MaterialModel model, double gamma) const {
     MaterialField field{{material_of(model)}, std::vector<int>(d.quadrature.size(), 0)};

@@ -27,11 +27,10 @@ struct Body {
       : Body(builtin(name, overrides)) {}
   Body(const Body&) = delete;
 
-  /// The control points moved by x -> A X + b, at a time.
+  /// The body moved by x -> A X + b, at a time.
   State moved(const Mat<2>& A, const Vec<2>& b, double time = 0) const {
     State state = model->initial;
-    for (int c = 0; c < state.z.size() / 2; ++c)
-      state.z.segment<2>(2 * c) = A * model->system.rest.segment<2>(2 * c) + b;
+    state.z = affine_field<2>(model->discretization.unknowns, A, b);
     state.time = time;
     return state;
   }

@@ -17,9 +17,7 @@ Discretization<2> discretized(const std::vector<test::Parts<2>>& solids) {
   return discretize<2>(solids, options);
 }
 
-Eigen::VectorXd rest(const Discretization<2>& d) {
-  return test::stacked<2>(rest_controls(d.boundary));
-}
+Points<2> rest(const Discretization<2>& d) { return rest_controls(d.boundary); }
 
 // Signed area of a closed polygon.
 double area(const Polyline& line) {

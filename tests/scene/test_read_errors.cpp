@@ -227,11 +227,11 @@ TEST_CASE("refused: names that nothing has, with the nearest one") {
   check_error(
       triangle(
           R"("loads": [{"type": "body", "force": [0, 1]}, {"type": "boundary", "part": "sale/mast", "pressure": 1}])"),
-      "test.json: loads (boundary, number 1).part: found 'sale/mast'; allowed: 'sail/mast' (did "
+      "test.json: loads[1].part: found 'sale/mast'; allowed: 'sail/mast' (did "
       "you mean that?)",
       "side");
   check_error(triangle(R"("loads": [{"type": "body", "force": [0, 1], "solid": "hull"}])"),
-              "test.json: loads (body, number 1).solid: found 'hull'; allowed: one of sail");
+              "test.json: loads[0].solid: found 'hull'; allowed: one of sail");
   for (const char* known : {"mast", "side", "side.2", "sail/mast", "sail/side", "sail/side.1"})
     CHECK(error_of(triangle(std::string(R"("pins": [{"part": ")") + known + "\"}]")) == "no error");
 }

@@ -50,10 +50,10 @@ TEST_CASE_TEMPLATE("model: loads and probes must be on the body", T, D2, D3) {
   load.where.box = far_box<Dim>();
   load.pressure = 1;
   scene.boundary_loads.push_back(load);
-  check_rejected(scene, {"loads (boundary, number 1)", "no boundary", "matches"});
+  check_rejected(scene, {"loads[0]", "no boundary", "matches"});
   scene.boundary_loads.clear();
-  scene.point_loads.push_back({Vec<Dim>::Constant(2), Vec<Dim>::Ones()});
-  check_rejected(scene, {"loads (point, number 1).at", "outside of the body"});
+  scene.point_loads.push_back({Vec<Dim>::Constant(2), Vec<Dim>::Ones(), 0});
+  check_rejected(scene, {"loads[0].at", "outside of the body"});
   scene.point_loads.clear();
   scene.probes.push_back({"in", ProbeKind::displacement, Vec<Dim>::Constant(1), 0});  // a corner
   CHECK_NOTHROW(build_model(scene, "my.json"));

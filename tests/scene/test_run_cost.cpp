@@ -73,7 +73,7 @@ TEST_CASE_TEMPLATE("stages and forces that a scene does not ask for are not ther
   CHECK(!has_stage(*plain, "pruning"));
   CHECK(plain->system.load.isZero(0));
   CHECK(plain->initial.v.isZero(0));
-  CHECK(plain->pinned.empty());
+  CHECK(plain->held.empty());
   scene.method.kept_columns = 3;
   CHECK(has_stage(*build_model(scene, ""), "pruning"));
 }

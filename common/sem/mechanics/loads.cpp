@@ -17,7 +17,7 @@ void add_forces(const Map<Dim>& map, const Points<Dim>& forces, Eigen::VectorXd&
 
 template <int Dim>
 Vec<Dim> outward_normal(const Discretization<Dim>& d, int part, const Param<Dim - 1>& u) {
-  const auto at = derivatives(d.boundary.parts[part].nurbs, u);
+  const auto at = derivatives(d.boundary.parts[part].nurbs, u, 1);
   const Vec<Dim> normal = DimTraits<Dim>::area_normal(at.first);
   return d.loops.orientation[part] * normal / std::max(normal.norm(), 1e-300);
 }

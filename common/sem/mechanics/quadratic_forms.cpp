@@ -13,21 +13,28 @@ Eigen::MatrixXd mass_matrix(const Map<Dim>& interior, const Eigen::VectorXd& poi
 }
 
 template <int Dim>
-Eigen::MatrixXd stability_matrix(const Map<Dim>& on_boundary, const Samples<Dim>& samples) {
-  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(on_boundary.n_columns, on_boundary.n_columns);
+Eigen::MatrixXd stability_matrix(const Map<Dim>& on_boundary, const Samples<Dim>& samples,
+                                 const Unknowns<Dim>& unknowns) {
+  if (unknowns.S.size() > 0) {
+    const Eigen::MatrixXd D = dense_value(on_boundary) -
+                              sample_jacobian(samples, unknowns.n_controls()) * unknowns.S;
+    return D.transpose() * samples.weight.asDiagonal() * D;
+  }
+  // S = I: a sample depends on the control points of its own part, which are among the block's columns.
+  Eigen::MatrixXd form = Eigen::MatrixXd::Zero(on_boundary.n_columns, on_boundary.n_columns);
   std::vector<int> local(on_boundary.n_columns);
   for (const auto& block : on_boundary.blocks) {
     for (size_t c = 0; c < block.columns.size(); ++c) local[block.columns[c]] = int(c);
-    Eigen::MatrixXd difference = block.value;
+    Eigen::MatrixXd D = block.value;
     for (size_t k = 0; k < block.points.size(); ++k) {
       const int s = block.points[k];
       for (int e = samples.row[s]; e < samples.row[s + 1]; ++e)
-        difference(k, local[samples.column[e]]) -= samples.value[e];
+        D(k, local[samples.column[e]]) -= samples.value[e];
     }
     const Eigen::VectorXd weight = samples.weight(block.points);
-    S(block.columns, block.columns) += difference.transpose() * weight.asDiagonal() * difference;
+    form(block.columns, block.columns) += D.transpose() * weight.asDiagonal() * D;
   }
-  return S;
+  return form;
 }
 
 Eigen::MatrixXd expand(const Eigen::MatrixXd& scalar, int dim) {
@@ -40,7 +47,7 @@ Eigen::MatrixXd expand(const Eigen::MatrixXd& scalar, int dim) {
 
 template Eigen::MatrixXd mass_matrix<2>(const Map<2>&, const Eigen::VectorXd&);
 template Eigen::MatrixXd mass_matrix<3>(const Map<3>&, const Eigen::VectorXd&);
-template Eigen::MatrixXd stability_matrix<2>(const Map<2>&, const Samples<2>&);
-template Eigen::MatrixXd stability_matrix<3>(const Map<3>&, const Samples<3>&);
+template Eigen::MatrixXd stability_matrix<2>(const Map<2>&, const Samples<2>&, const Unknowns<2>&);
+template Eigen::MatrixXd stability_matrix<3>(const Map<3>&, const Samples<3>&, const Unknowns<3>&);
 
 }  // namespace sem

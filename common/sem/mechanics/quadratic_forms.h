@@ -5,6 +5,7 @@
 
 #include "sem/method/map.h"
 #include "sem/method/samples.h"
+#include "sem/method/unknowns.h"
 
 namespace sem {
 
@@ -13,12 +14,13 @@ namespace sem {
 template <int Dim>
 Eigen::MatrixXd mass_matrix(const Map<Dim>& interior, const Eigen::VectorXd& point_mass);
 
-/// S = sum_s a_s (Gamma_s - J_s)^T (Gamma_s - J_s), m^(Dim-1): the integral of
-/// |x(X(u)) - J(u) p|^2 over the boundary is p^T S p, summed over components.
+/// sum_s a_s D_s^T D_s with D_s = Gamma_s - J_s S, m^(Dim-1): the integral of |x(X(u)) - J(u) p|^2
+/// over the boundary, p = S z, is the quadratic form of this matrix in z, summed over components.
 /// The stability (error) energy is gamma/2 of it, the kinetic one rho l/2 of
 /// the same form in the velocities.
 template <int Dim>
-Eigen::MatrixXd stability_matrix(const Map<Dim>& on_boundary, const Samples<Dim>& samples);
+Eigen::MatrixXd stability_matrix(const Map<Dim>& on_boundary, const Samples<Dim>& samples,
+                                 const Unknowns<Dim>& unknowns);
 
 /// Kronecker product with the identity of size dim: what acts on z.
 Eigen::MatrixXd expand(const Eigen::MatrixXd& scalar, int dim);

@@ -25,7 +25,7 @@ void add_flux(const Nurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>& lower,
       u[a] = lower[a] + half * (1 + rule.node[rest % n_gauss]);
       weight *= half * rule.weight[rest % n_gauss];
     }
-    const auto at = derivatives(shape, u);
+    const auto at = derivatives(shape, u, 1);
     const Vec<Dim> x = at.point - center;
     const double flux = weight * DimTraits<Dim>::area_normal(at.first)[0];
     // Primitive along X_0 of X_0^m (rest): X_0^(m+1)/(m+1) (rest).
@@ -42,7 +42,7 @@ void add_flux(const Nurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>& lower,
 template <int Dim>
 int side(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
          const PreparedNurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>& u) {
-  const auto at = derivatives(shape.nurbs, u);
+  const auto at = derivatives(shape.nurbs, u, 1);
   const Vec<Dim> normal = DimTraits<Dim>::area_normal(at.first).normalized();
   if (!normal.allFinite()) return 0;
   const Vec<Dim> step = 1e-7 * shape.box.diagonal() * normal;
@@ -132,7 +132,8 @@ Crowding<Dim> find_crowding(const Boundary<Dim>& boundary, const Loops<Dim>& loo
 }  // namespace
 
 template <int Dim>
-Moments<Dim> boundary_moments(const Boundary<Dim>& boundary, const Loops<Dim>& loops) {
+Moments<Dim> boundary_moments(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
+                              const Vec<Dim>& about) {
   Moments<Dim> moments;
   const Vec<Dim> center = (boundary.box.lower + boundary.box.upper) / 2;
   const Crowding<Dim> crowding = find_crowding(boundary, loops);
@@ -150,25 +151,28 @@ Moments<Dim> boundary_moments(const Boundary<Dim>& boundary, const Loops<Dim>& l
   for (int c = 0; c < int(loops.caps.size()); ++c)
     if (loops.cap_length[c] > boundary.tolerance())
       add(loops.caps[c], crowding.loop_of_cap[c], loops.cap_orientation[c]);
-  // From the center of the box back to the origin.
-  moments.second += moments.first * center.transpose() + center * moments.first.transpose() +
-                    moments.volume * center * center.transpose();
-  moments.first += moments.volume * center;
+  // From the center of the box to the point asked for.
+  const Vec<Dim> shift = center - about;
+  moments.second += moments.first * shift.transpose() + shift * moments.first.transpose() +
+                    moments.volume * shift * shift.transpose();
+  moments.first += moments.volume * shift;
   return moments;
 }
 
 template <int Dim>
-Moments<Dim> quadrature_moments(const Points<Dim>& position, const Eigen::VectorXd& weight) {
+Moments<Dim> quadrature_moments(const Points<Dim>& position, const Eigen::VectorXd& weight,
+                                const Vec<Dim>& about) {
+  const Points<Dim> r = position.colwise() - about;
   Moments<Dim> moments;
   moments.volume = weight.sum();
-  moments.first = position * weight;
-  moments.second = position * weight.asDiagonal() * position.transpose();
+  moments.first = r * weight;
+  moments.second = r * weight.asDiagonal() * r.transpose();
   return moments;
 }
 
-template Moments<2> boundary_moments<2>(const Boundary<2>&, const Loops<2>&);
-template Moments<3> boundary_moments<3>(const Boundary<3>&, const Loops<3>&);
-template Moments<2> quadrature_moments<2>(const Points<2>&, const Eigen::VectorXd&);
-template Moments<3> quadrature_moments<3>(const Points<3>&, const Eigen::VectorXd&);
+template Moments<2> boundary_moments<2>(const Boundary<2>&, const Loops<2>&, const Vec<2>&);
+template Moments<3> boundary_moments<3>(const Boundary<3>&, const Loops<3>&, const Vec<3>&);
+template Moments<2> quadrature_moments<2>(const Points<2>&, const Eigen::VectorXd&, const Vec<2>&);
+template Moments<3> quadrature_moments<3>(const Points<3>&, const Eigen::VectorXd&, const Vec<3>&);
 
 }  // namespace sem

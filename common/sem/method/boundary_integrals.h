@@ -6,12 +6,12 @@
 
 namespace sem {
 
-/// Moments of the body.
+/// Moments of the body about a point C.
 template <int Dim>
 struct Moments {
   double volume = 0;                             ///< area (2D, m^2) or volume (m^3)
-  Vec<Dim> first = Vec<Dim>::Zero();             ///< integral of X
-  Mat<Dim> second = Mat<Dim>::Zero();            ///< integral of X X^T
+  Vec<Dim> first = Vec<Dim>::Zero();             ///< integral of X - C
+  Mat<Dim> second = Mat<Dim>::Zero();            ///< integral of (X - C) (X - C)^T
   bool available = true;                         ///< false: the boundary does not determine it
 };
 
@@ -21,10 +21,12 @@ struct Moments {
 /// Gauss rule of 32 points on every Bezier piece: exact for polynomial parts
 /// up to degree 15, to rounding for moderate rational ones.
 template <int Dim>
-Moments<Dim> boundary_moments(const Boundary<Dim>& boundary, const Loops<Dim>& loops);
+Moments<Dim> boundary_moments(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
+                              const Vec<Dim>& about = Vec<Dim>::Zero());
 
 /// Moments of a quadrature rule, for comparison.
 template <int Dim>
-Moments<Dim> quadrature_moments(const Points<Dim>& position, const Eigen::VectorXd& weight);
+Moments<Dim> quadrature_moments(const Points<Dim>& position, const Eigen::VectorXd& weight,
+                                const Vec<Dim>& about = Vec<Dim>::Zero());
 
 }  // namespace sem

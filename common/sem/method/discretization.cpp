@@ -51,9 +51,10 @@ Discretization<Dim> discretize(const std::vector<std::vector<Nurbs<Dim - 1, Dim>
     return choose_origins(options.origins, d.weights, d.quadrature.weight, d.samples);
   });
   d.projection = timed(d.cost, "projection", [&] { return project(d.samples, d.origins, options.projection); });
+  d.unknowns = control_point_unknowns(d.boundary);
   d.interior = timed(d.cost, "interior map", [&] {
     return blended_map(d.quadrature.position, d.weights, d.origins, d.projection,
-                       d.boundary.n_controls(), true, n_threads);
+                       d.unknowns.size(), true, n_threads);
   });
   d.on_boundary = timed(d.cost, "boundary map", [&] { return map_at(d, d.samples.position, false); });
   if (options.kept_columns < 0)
@@ -68,7 +69,7 @@ Map<Dim> map_at(const Discretization<Dim>& d, const Points<Dim>& position, bool 
   const auto theta =
       measure_theta(d.boundary, d.loops, position, d.options.weights, d.options.n_threads);
   return blended_map(position, blending_weights(theta, d.boundary, position), d.origins,
-                     d.projection, d.boundary.n_controls(), with_gradient, d.options.n_threads);
+                     d.projection, d.unknowns.size(), with_gradient, d.options.n_threads);
 }
 
 template Discretization<2> discretize<2>(const std::vector<std::vector<Nurbs<1, 2>>>&, const MethodOptions&);

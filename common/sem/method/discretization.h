@@ -10,6 +10,7 @@
 #include "sem/method/projection.h"
 #include "sem/method/quadrature.h"
 #include "sem/method/samples.h"
+#include "sem/method/unknowns.h"
 
 namespace sem {
 
@@ -45,6 +46,7 @@ struct Discretization {
   BlendingWeights<Dim> weights;
   Origins<Dim> origins;
   Projection<Dim> projection;
+  Unknowns<Dim> unknowns;
   Map<Dim> interior;     ///< value and gradient at the quadrature points
   Map<Dim> on_boundary;  ///< value at the boundary samples
   PruneReport pruning;   ///< kept = 0: not asked for

@@ -73,7 +73,7 @@ template <int Dim>
 int orientation(const Boundary<Dim>& boundary, const Loops<Dim>& loops, int solid,
                 const PreparedNurbs<Dim - 1, Dim>& part) {
   for (const auto& u : inner_parameters<Dim>(part)) {
-    const auto at = derivatives(part.nurbs, u);
+    const auto at = derivatives(part.nurbs, u, 1);
     const Vec<Dim> normal = DimTraits<Dim>::area_normal(at.first).normalized();
     if (!normal.allFinite()) continue;
     const Vec<Dim> step = 1e-6 * part.box.diagonal() * normal;

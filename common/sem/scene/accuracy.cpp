@@ -8,8 +8,9 @@ template <int Dim>
 Accuracy<Dim> measure_accuracy(const Model<Dim>& model) {
   const auto& d = model.discretization;
   Accuracy<Dim> a;
-  a.boundary = boundary_moments(d.boundary, d.loops);
-  a.quadrature = quadrature_moments<Dim>(d.quadrature.position, d.quadrature.weight);
+  a.about = (d.boundary.box.lower + d.boundary.box.upper) / 2;
+  a.boundary = boundary_moments<Dim>(d.boundary, d.loops, a.about);
+  a.quadrature = quadrature_moments<Dim>(d.quadrature.position, d.quadrature.weight, a.about);
   const double size = d.boundary.box.diagonal(), volume = std::abs(a.boundary.volume);
   if (a.boundary.available && volume > 0) {
     a.volume_error = std::abs(a.quadrature.volume - a.boundary.volume) / volume;
@@ -40,14 +41,15 @@ Accuracy<Dim> measure_accuracy(const Model<Dim>& model) {
 namespace {
 
 template <int Dim>
-nlohmann::ordered_json moments_json(const Moments<Dim>& moments) {
+nlohmann::ordered_json moments_json(const Moments<Dim>& moments, const Vec<Dim>& about) {
   nlohmann::ordered_json json;
   json[DimTraits<Dim>::volume_name] = moments.volume;
-  const Vec<Dim> centroid = moments.first / moments.volume;
+  const Vec<Dim> centroid = about + moments.first / moments.volume;
+  const Mat<Dim> central = moments.second - moments.first * moments.first.transpose() / moments.volume;
   json["centroid_m"] = std::vector<double>(centroid.begin(), centroid.end());
-  json["second_moments"] = nlohmann::ordered_json::array();
+  json["central_second_moments"] = nlohmann::ordered_json::array();
   for (int i = 0; i < Dim; ++i)
-    for (int j = i; j < Dim; ++j) json["second_moments"].push_back(moments.second(i, j));
+    for (int j = i; j < Dim; ++j) json["central_second_moments"].push_back(central(i, j));
   return json;
 }
 
@@ -57,9 +59,9 @@ template <int Dim>
 nlohmann::ordered_json to_json(const Accuracy<Dim>& a) {
   nlohmann::ordered_json json;
   auto& rule = json["quadrature"];
-  rule["rule"] = moments_json(a.quadrature);
+  rule["rule"] = moments_json(a.quadrature, a.about);
   if (a.boundary.available) {
-    rule["boundary_truth"] = moments_json(a.boundary);
+    rule["boundary_truth"] = moments_json(a.boundary, a.about);
     rule["relative_error"] = {{DimTraits<Dim>::volume_name, a.volume_error},
                               {"first_moments", a.first_moment_error},
                               {"second_moments", a.second_moment_error}};

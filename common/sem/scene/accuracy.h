@@ -10,6 +10,7 @@ namespace sem {
 
 template <int Dim>
 struct Accuracy {
+  Vec<Dim> about = Vec<Dim>::Zero();  ///< point of the moments: the middle of the model's box
   Moments<Dim> boundary, quadrature;  ///< the boundary integral's truth and the rule's own
   double volume_error = 0;            ///< relative
   double first_moment_error = 0;      ///< relative to volume times size

@@ -89,14 +89,14 @@ class Builder {
 
   void make_operators() {
     const auto& d = model_->discretization;
-    model_->stability = stability_matrix(d.on_boundary, d.samples);
+    model_->stability = stability_matrix(d.on_boundary, d.samples, d.unknowns);
     model_->stability_stiffness =
         scene_.stability_stiffness > 0 ? scene_.stability_stiffness : default_stiffness();
     model_->mass = mass_matrix(d.interior, model_->point_mass);
     if (scene_.kinetic_length > 0) {
       Samples<Dim> dense = d.samples;
       for (int s = 0; s < dense.size(); ++s) dense.weight[s] *= part_densities_[dense.part[s]];
-      model_->mass += scene_.kinetic_length * stability_matrix(d.on_boundary, dense);
+      model_->mass += scene_.kinetic_length * stability_matrix(d.on_boundary, dense, d.unknowns);
     }
     model_->energy = std::make_unique<InternalEnergy<Dim>>(
         d.interior, d.quadrature.weight, model_->materials,
@@ -104,8 +104,7 @@ class Builder {
     System& system = model_->system;
     system.potential = model_->energy.get();
     system.mass = expand(model_->mass, Dim);
-    const Points<Dim> p = rest_controls(d.boundary);
-    system.rest = Eigen::Map<const VectorXd>(p.data(), p.size());
+    system.rest = affine_field<Dim>(d.unknowns, Mat<Dim>::Identity(), Vec<Dim>::Zero());
   }
 
   // 10 n^2 E / h with the mean size h of a part and E of the first solid: the
@@ -158,13 +157,13 @@ class Builder {
       const std::vector<int> controls = select_controls(pin.where, field);
       if (controls.empty())
         throw InputError(file_, field, "no control point", "a part, box or index that matches at least one");
-      model_->pinned.emplace_back();
+      Held& pinned = model_->held.emplace_back(Held{controls, {}});
       for (const int control : controls)
         for (int a = 0; a < Dim; ++a) {
-          const int entry = Dim * control + a;
           if (!pin.axes[a]) continue;
+          const int entry = Dim * unknown_of_control(model_->discretization.unknowns, control).value() + a;
           held[entry] = true;
-          model_->pinned.back().push_back(entry);
+          pinned.entries.push_back(entry);
           model_->target[entry] = system.rest[entry] + pin.displacement[a];
         }
     }
@@ -179,13 +178,13 @@ class Builder {
     const Vec<Dim> center = mass > 0 ? Vec<Dim>(d.quadrature.position * model_->point_mass / mass)
                                      : Vec<Dim>(quadrature_center());
     model_->initial.z = system.rest;
+    // v(X) = velocity + W (X - center), W the spin about z; pinned entries do not move.
+    Mat<Dim> W = Mat<Dim>::Zero();
+    W(1, 0) = scene_.angular_velocity;
+    W(0, 1) = -scene_.angular_velocity;
+    const VectorXd v = affine_field<Dim>(d.unknowns, W, scene_.velocity - W * center);
     model_->initial.v = VectorXd::Zero(system.size());
-    for (const int entry : system.free) {
-      const int a = entry % Dim;
-      const Vec<Dim> r = system.rest.template segment<Dim>(entry - a) - center;
-      const double turn = a == 0 ? -r[1] : a == 1 ? r[0] : 0;  // about z
-      model_->initial.v[entry] = scene_.velocity[a] + scene_.angular_velocity * turn;
-    }
+    model_->initial.v(system.free) = v(system.free);
   }
 
   Vec<Dim> quadrature_center() const {
@@ -205,12 +204,11 @@ class Builder {
           if (scene_.solids[d.quadrature.solid[k]].name != load.solid) volume[k] = 0;
       add_body_force<Dim>(d.interior, volume, load.force, f);
     }
-    for (size_t i = 0; i < scene_.point_loads.size(); ++i) {
-      require_in_body(scene_.point_loads[i].at, "loads (point, number " + std::to_string(i + 1) + ").at");
-      add_point_force<Dim>(d, scene_.point_loads[i].at, scene_.point_loads[i].force, f);
+    for (const auto& load : scene_.point_loads) {
+      require_in_body(load.at, "loads[" + std::to_string(load.index) + "].at");
+      add_point_force<Dim>(d, load.at, load.force, f);
     }
-    for (size_t i = 0; i < scene_.boundary_loads.size(); ++i) {
-      const auto& load = scene_.boundary_loads[i];
+    for (const auto& load : scene_.boundary_loads) {
       const Traction<Dim> traction = [&](int part, const Vec<Dim>& X, const Vec<Dim>& normal) -> Vec<Dim> {
         const auto& [solid, name] = part_names_[part];
         const bool here = (load.where.part.empty() || matches_part(load.where.part, solid, name)) &&
@@ -219,7 +217,7 @@ class Builder {
         return load.traction - load.pressure * normal;
       };
       if (add_traction<Dim>(d, traction, f) == 0 && (load.pressure != 0 || !load.traction.isZero(0)))
-        throw InputError(file_, "loads (boundary, number " + std::to_string(i + 1) + ")",
+        throw InputError(file_, "loads[" + std::to_string(load.index) + "]",
                          "no boundary", "a part or box that matches some of it");
     }
   }

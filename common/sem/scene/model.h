@@ -9,8 +9,13 @@
 
 namespace sem {
 
-/// The discretised body of a scene with its energy, mass, loads and pins. The
-/// unknowns z are the control points (the paper's formulation).
+/// What a pin holds.
+struct Held {
+  std::vector<int> controls;  ///< control points, ascending
+  std::vector<int> entries;   ///< of z: those of the held components, ascending
+};
+
+/// The discretised body of a scene with its energy, mass, loads and pins.
 template <int Dim>
 struct Model {
   Model() = default;
@@ -21,13 +26,13 @@ struct Model {
   MaterialField materials;
   Eigen::VectorXd point_mass;       ///< #points, kg: density times v_k
   Eigen::MatrixXd mass;             ///< scalar mass matrix, kinetic stability term included
-  Eigen::MatrixXd stability;        ///< scalar S, without gamma
+  Eigen::MatrixXd stability;        ///< scalar error form, without gamma
   double stability_stiffness = 0;   ///< gamma used, Pa/m
   std::unique_ptr<InternalEnergy<Dim>> energy;
   System system;                    ///< refers to energy
   State initial;
   Eigen::VectorXd target;           ///< z with the prescribed displacements of the pins
-  std::vector<std::vector<int>> pinned;  ///< per pin: its entries of z
+  std::vector<Held> held;           ///< per pin
   std::vector<StageCost> cost;      ///< all stages, those of the discretisation first
 
   double total_mass() const { return point_mass.sum(); }

@@ -51,7 +51,7 @@ Monitor<Dim>::Monitor(const Scene<Dim>& scene, const Model<Dim>& model) : scene_
   }
   const bool massless = model.total_mass() == 0;
   const VectorXd share = massless ? d.quadrature.weight : model.point_mass;
-  centroid_ = VectorXd::Zero(d.boundary.n_controls());
+  centroid_ = VectorXd::Zero(d.unknowns.size());
   for (const auto& block : d.interior.blocks)
     centroid_(block.columns) += block.value.transpose() * share(block.points) / share.sum();
 }
@@ -71,8 +71,7 @@ std::vector<std::string> Monitor<Dim>::columns() const {
 
 template <int Dim>
 std::vector<double> Monitor<Dim>::probes(const State& state, const VectorXd& acceleration) const {
-  const int n = model_.discretization.boundary.n_controls();
-  const Eigen::Map<const Points<Dim>> nodes(state.z.data(), Dim, n);
+  const Eigen::Map<const Points<Dim>> nodes(state.z.data(), Dim, model_.discretization.unknowns.size());
   VectorXd reactions;
   std::vector<double> values;
   for (size_t i = 0; i < scene_.probes.size(); ++i) {
@@ -88,22 +87,22 @@ std::vector<double> Monitor<Dim>::probes(const State& state, const VectorXd& acc
     } else {
       if (reactions.size() == 0) reactions = reaction(model_.system, state.z, acceleration);
       Vec<Dim> sum = Vec<Dim>::Zero();
-      for (const int entry : model_.pinned[probe.pin]) sum[entry % Dim] += reactions[entry];
+      for (const int entry : model_.held[probe.pin].entries) sum[entry % Dim] += reactions[entry];
       values.insert(values.end(), sum.begin(), sum.end());
     }
   }
   return values;
 }
 
-// From the differences themselves: the quadratic form p^T S p would cancel below 1e-8.
+// From the differences themselves: the quadratic form in z would cancel below 1e-8.
 template <int Dim>
 double Monitor<Dim>::boundary_mismatch(const State& state) const {
   const auto& d = model_.discretization;
-  const Eigen::Map<const Points<Dim>> nodes(state.z.data(), Dim, d.boundary.n_controls());
+  const Points<Dim> p = control_points(d.unknowns, state.z);
   Points<Dim> difference = evaluate(d.on_boundary, state.z);
   for (int s = 0; s < d.samples.size(); ++s)
     for (int e = d.samples.row[s]; e < d.samples.row[s + 1]; ++e)
-      difference.col(s) -= d.samples.value[e] * nodes.col(d.samples.column[e]);
+      difference.col(s) -= d.samples.value[e] * p.col(d.samples.column[e]);
   const double integral = difference.colwise().squaredNorm().dot(d.samples.weight);
   return std::sqrt(integral / d.samples.weight.sum()) / d.boundary.box.diagonal();
 }
@@ -111,7 +110,7 @@ double Monitor<Dim>::boundary_mismatch(const State& state) const {
 template <int Dim>
 std::vector<double> Monitor<Dim>::row(const State& state, const VectorXd& acceleration, int iterations,
                                       double residual, int n_substeps) const {
-  const int n = model_.discretization.boundary.n_controls();
+  const int n = model_.discretization.unknowns.size();
   const Eigen::Map<const Points<Dim>> nodes(state.z.data(), Dim, n), rates(state.v.data(), Dim, n);
   const Points<Dim> momenta = rates * model_.mass;
   const double kinetic = rates.cwiseProduct(momenta).sum() / 2;
@@ -121,7 +120,7 @@ std::vector<double> Monitor<Dim>::row(const State& state, const VectorXd& accele
   std::vector<double> row = {double(state.step), state.time, kinetic, elastic, stability, load,
                              kinetic + elastic + stability + load, double(iterations), residual,
                              double(n_substeps)};
-  const Vec<Dim> centroid = nodes * centroid_, momentum = momenta.rowwise().sum();
+  const Vec<Dim> centroid = nodes * centroid_, momentum = momenta * model_.discretization.unknowns.one;
   row.insert(row.end(), centroid.begin(), centroid.end());
   row.insert(row.end(), momentum.begin(), momentum.end());
   auto angular = DimTraits<Dim>::cross(Vec<Dim>::Zero(), Vec<Dim>::Zero());

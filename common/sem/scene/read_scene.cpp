@@ -177,16 +177,21 @@ void describe_loads(Fields& fields, Scene<Dim>& scene) {
       f.text("solid", load.solid, "body: only this solid; empty: all");
     };
     if (f.documenting()) {
-      PointLoad<Dim> point{Vec<Dim>::Zero(), Vec<Dim>::Zero()};
+      PointLoad<Dim> point{Vec<Dim>::Zero(), Vec<Dim>::Zero(), 0};
       BoundaryLoad<Dim> boundary;
-      BodyLoad<Dim> body{"", Vec<Dim>::Zero()};
+      BodyLoad<Dim> body{"", Vec<Dim>::Zero(), 0};
       describe_point(point);
       describe_boundary(boundary);
       f.text("solid", body.solid, "body: only this solid; empty: all");
     } else if (f.reading()) {
-      if (type == 0) describe_point(scene.point_loads.emplace_back());
-      if (type == 1) describe_boundary(scene.boundary_loads.emplace_back());
-      if (type == 2) describe_body(scene.body_loads.emplace_back());
+      const auto add = [&](auto& loads) -> auto& {
+        auto& load = loads.emplace_back();
+        load.index = i;
+        return load;
+      };
+      if (type == 0) describe_point(add(scene.point_loads));
+      if (type == 1) describe_boundary(add(scene.boundary_loads));
+      if (type == 2) describe_body(add(scene.body_loads));
     } else {
       if (type == 0) describe_point(scene.point_loads[i]);
       if (type == 1) describe_boundary(scene.boundary_loads[i - n_point]);
@@ -271,10 +276,10 @@ void check_names(Fields& fields, const Scene<Dim>& scene) {
   };
   for (size_t i = 0; i < scene.pins.size(); ++i)
     check_name(scene.pins[i].where.part, parts, "pins[" + std::to_string(i) + "].part");
-  for (size_t i = 0; i < scene.boundary_loads.size(); ++i)
-    check_name(scene.boundary_loads[i].where.part, parts, "loads (boundary, number " + std::to_string(i + 1) + ").part");
-  for (size_t i = 0; i < scene.body_loads.size(); ++i)
-    check_name(scene.body_loads[i].solid, solids, "loads (body, number " + std::to_string(i + 1) + ").solid");
+  for (const auto& load : scene.boundary_loads)
+    check_name(load.where.part, parts, "loads[" + std::to_string(load.index) + "].part");
+  for (const auto& load : scene.body_loads)
+    check_name(load.solid, solids, "loads[" + std::to_string(load.index) + "].solid");
   std::set<std::string> probes;
   for (size_t i = 0; i < scene.probes.size(); ++i) {
     const auto& probe = scene.probes[i];

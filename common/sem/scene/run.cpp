@@ -41,13 +41,12 @@ std::string deformed_parts(const Scene<Dim>& scene, const Model<Dim>& model, con
   Json solids = Json::parse(write_scene(scene))["solids"];
   int part = 0;
   const auto& boundary = model.discretization.boundary;
+  const Points<Dim> p = control_points(model.discretization.unknowns, state.z);
   for (auto& solid : solids)
     for (auto& entry : solid["parts"]) {
       auto& points = entry["control_points"];
-      for (int c = boundary.first_control[part]; c < boundary.first_control[part + 1]; ++c) {
-        const auto p = state.z.template segment<Dim>(Dim * c);
-        points[c - boundary.first_control[part]] = std::vector<double>(p.begin(), p.end());
-      }
+      for (int c = boundary.first_control[part]; c < boundary.first_control[part + 1]; ++c)
+        points[c - boundary.first_control[part]] = std::vector<double>(p.col(c).begin(), p.col(c).end());
       ++part;
     }
   return json_text(Json{{"step", state.step}, {"time_s", state.time}, {"solids", solids}});

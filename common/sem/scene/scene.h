@@ -46,17 +46,20 @@ struct Pin {
 template <int Dim>
 struct PointLoad {
   Vec<Dim> at, force;  ///< m, N: on the map at a rest point
+  int index = 0;       ///< in the scene's list of loads, for messages
 };
 template <int Dim>
 struct BoundaryLoad {
   Selector<Dim> where;
   Vec<Dim> traction = Vec<Dim>::Zero();  ///< N per m (2D) or m^2
   double pressure = 0;                   ///< Pa, pushes against the outward rest normal
+  int index = 0;
 };
 template <int Dim>
 struct BodyLoad {
   std::string solid;  ///< empty: all
   Vec<Dim> force;     ///< N/m^3
+  int index = 0;
 };
 
 enum class ProbeKind { displacement, stress, reaction };
