@@ -28,16 +28,24 @@ BlendingWeights<Dim> blending_weights(const DistanceWeights<Dim>& theta, const B
   weights.n_parts = theta.n_parts;
   weights.begin.push_back(0);
   const int n_points = int(theta.begin.size()) - 1;
+  const bool with_gradient = !theta.gradient.empty();
   for (int k = 0; k < n_points; ++k) {
     double sum = 0;
-    for (int e = theta.begin[k]; e < theta.begin[k + 1]; ++e) sum += theta.theta[e];
+    Vec<Dim> gradient = Vec<Dim>::Zero();
     for (int e = theta.begin[k]; e < theta.begin[k + 1]; ++e) {
+      sum += theta.theta[e];
+      if (with_gradient) gradient += theta.gradient[e];
+    }
+    for (int e = theta.begin[k]; e < theta.begin[k + 1]; ++e) {
+      const double w = theta.theta[e] / sum;
       weights.part.push_back(theta.part[e]);
-      weights.w.push_back(theta.theta[e] / sum);
+      weights.w.push_back(w);
+      if (with_gradient) weights.gradient.push_back((theta.gradient[e] - w * gradient) / sum);
     }
     if (sum == 0) {
       weights.part.push_back(closest_part<Dim>(boundary, position.col(k)));
       weights.w.push_back(1);
+      if (with_gradient) weights.gradient.push_back(Vec<Dim>::Zero());
       weights.uncovered.push_back(k);
     }
     weights.begin.push_back(int(weights.part.size()));

@@ -13,6 +13,7 @@ struct BlendingWeights {
   std::vector<int> begin;          ///< #points + 1
   std::vector<int> part;           ///< #entries
   std::vector<double> w;           ///< #entries, in (0, 1]
+  std::vector<Vec<Dim>> gradient;  ///< #entries: grad w, 1/m, sums to 0 in a row; empty if theta's is
   std::vector<int> uncovered;      ///< points where all theta vanish
   int n_parts = 0;
 

@@ -16,7 +16,9 @@ struct Pair {
   int part;
   double closest, reach;
   Vec<Dim> foot;
+  Param<Dim - 1> foot_u;
   int hit_part;
+  Param<Dim - 1> hit_u = Param<Dim - 1>::Zero();
 };
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -48,7 +50,7 @@ class Meter {
       on_boundary |= on_part;
       if (!on_part && !enclosed && !(closest.distance < max_distance_)) continue;
       pairs.push_back({i, on_part || enclosed ? 0 : closest.distance, infinity, closest.point,
-                       on_part ? i : -1});
+                       closest.u, on_part ? i : -1});
     }
     if (on_boundary) {
       std::erase_if(pairs, [](const auto& pair) { return pair.hit_part != pair.part; });
@@ -80,6 +82,7 @@ class Meter {
         t_max = hit.t;
         pair.reach = draft ? std::max(0.0, hit.t - pair.closest) : hit.t;
         pair.hit_part = j;
+        pair.hit_u = hit.u;
       }
     }
   }
@@ -129,7 +132,9 @@ Distances<Dim> measure_distances(const Boundary<Dim>& boundary, const Loops<Dim>
       distances.closest.push_back(pair.closest);
       distances.reach.push_back(pair.reach);
       distances.foot.push_back(pair.foot);
+      distances.foot_u.push_back(pair.foot_u);
       distances.hit_part.push_back(pair.hit_part);
+      distances.hit_u.push_back(pair.hit_u);
     }
     distances.begin.push_back(int(distances.part.size()));
   }

@@ -32,8 +32,10 @@ struct Distances {
   std::vector<double> closest;   ///< #pairs: |X - X*|
   std::vector<double> reach;     ///< #pairs: what min(., alpha) takes beside alpha; infinity: no hit
   std::vector<Vec<Dim>> foot;    ///< #pairs: X*
+  std::vector<Param<Dim - 1>> foot_u;  ///< #pairs: its parameter on the part
   std::vector<int> hit_part;     ///< #pairs: the part hit by the ray, -1: none. With the choice between
                                  ///< reach and alpha it labels the smooth piece that X lies in.
+  std::vector<Param<Dim - 1>> hit_u;   ///< #pairs: parameter of the hit, where there is one
 };
 
 /// Closest points and rays.
@@ -61,6 +63,7 @@ struct DistanceWeights {
   std::vector<int> begin;        ///< #points + 1
   std::vector<int> part;         ///< #entries
   std::vector<double> theta;     ///< #entries, in (0, 1]
+  std::vector<Vec<Dim>> gradient;  ///< #entries: grad theta, 1/m; empty: not asked for (distance_weight_gradients)
   std::vector<int> piece;        ///< #entries: smooth piece: the part whose hit decides, -1: the cutoff does
   int n_parts = 0;
 };
@@ -70,5 +73,18 @@ struct DistanceWeights {
 /// Throws InputError (field `method.weights`) for alpha <= 0 or T outside (0, 1].
 template <int Dim>
 DistanceWeights<Dim> distance_weights(const Distances<Dim>& distances, const WeightOptions& options);
+
+/// Sets theta.gradient: grad theta on the smooth piece that X lies in, in closed form; `distances` are
+/// those that theta was made of. With n = (X - X*) / d and m = min(reach, alpha)
+///   grad theta = -n / m + d / m^2 grad m.
+/// X* moves by C = T A^-1 T^T with the tangents T of the directions in which the foot is free to move and
+/// A_ab = X_a . X_b - (X - X*) . X_ab (zero for a foot at a corner or an end of its part); the hit Y =
+/// X* + r n stays on the surface with normal N, hence grad r = -(C + r dn/dX)^T N / (N . n), and
+/// reach = r (published) or r - d (draft). Zero where theta is 1 by a rule: on a part, where it has only
+/// one-sided derivatives, and inside a closed part.
+template <int Dim>
+void distance_weight_gradients(const Boundary<Dim>& boundary, const Points<Dim>& position,
+                               const Distances<Dim>& distances, DistanceWeight variant,
+                               DistanceWeights<Dim>& theta);
 
 }  // namespace sem

@@ -59,10 +59,17 @@ MapBlock<Dim> make_block(const std::vector<int>& parts, const std::vector<int>& 
       w[k] = weights.w[weights.begin[points[k]] + p];
       monomials.values(local(k), m.row(k));
     }
+    const MatrixXd x_i = m * fit.coefficients + VectorXd::Ones(n) * fit.translation;
     // x += w_i [m(X - Xbar_i) c_i + t_i]
-    scatter_add(block.value, w.asDiagonal() * (m * fit.coefficients + VectorXd::Ones(n) * fit.translation), at);
+    scatter_add(block.value, w.asDiagonal() * x_i, at);
     if (!with_gradient) continue;
     for (int axis = 0; axis < Dim; ++axis) {
+      if (!weights.gradient.empty()) {
+        VectorXd dw(n);
+        for (int k = 0; k < n; ++k) dw[k] = weights.gradient[weights.begin[points[k]] + p][axis];
+        // F_.axis += dw_i/dX_axis [m c_i + t_i]
+        scatter_add(block.gradient[axis], dw.asDiagonal() * x_i, at);
+      }
       for (int k = 0; k < n; ++k) monomials.derivatives(local(k), axis, m.row(k));
       // F_.axis += w_i dm/dX_axis c_i
       scatter_add(block.gradient[axis], (w / fit.scale).asDiagonal() * (m * fit.coefficients), at);

@@ -33,7 +33,8 @@ struct Map {
 
 /// The blended map of the control points, draft eq. 2-6 with a translation per
 /// origin: x(X) = sum_i w_i [m(X - Xbar_i) c_i + t_i]. The gradient is the
-/// paper's diffuse one: grad w is left out of it (draft eq. 12). n_columns: the
+/// paper's diffuse one, grad w left out of it (draft eq. 12), unless the
+/// weights have their gradients: then it is that of x(X). n_columns: the
 /// number of control points.
 template <int Dim>
 Map<Dim> blended_map(const Points<Dim>& position, const BlendingWeights<Dim>& weights,

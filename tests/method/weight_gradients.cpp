@@ -1,0 +1,130 @@
+// grad theta, grad w and the exact gradient of the map against finite differences on their smooth pieces.
+#include <array>
+#include <random>
+
+#include "dims.h"
+#include "sem/method/discretization.h"
+#include "solids.h"
+
+using namespace sem;
+using test::Parts;
+
+namespace {
+
+// Curved and not convex: a ring of arcs; a box whose corner is pulled out, so that faces are curved.
+template <int Dim>
+Parts<Dim> curved_solid();
+template <>
+Parts<2> curved_solid<2>() {
+  Parts<2> parts = test::circle({0, 0}, 2, 5);
+  for (const auto& part : test::circle({0.2, 0.1}, 0.8, 4)) parts.push_back(part);
+  return parts;
+}
+template <>
+Parts<3> curved_solid<3>() {
+  Parts<3> parts = test::unit_box<3>();
+  for (auto& part : parts)
+    for (int c = 0; c < part.control_points.cols(); ++c)
+      if (part.control_points.col(c) == Vec<3>::Ones()) part.control_points.col(c) = Vec<3>(1.4, 1.3, 1.2);
+  return parts;
+}
+
+template <int Dim>
+struct Fields {
+  DistanceWeights<Dim> theta;
+  BlendingWeights<Dim> w;
+};
+
+template <int Dim>
+Fields<Dim> fields_at(const Discretization<Dim>& d, const Points<Dim>& X, DistanceWeight variant, bool gradients) {
+  WeightOptions options;
+  options.variant = variant;
+  options.cutoff = 3;
+  const auto distances = measure_distances<Dim>(d.boundary, d.loops, X, variant, options.cutoff);
+  Fields<Dim> f;
+  f.theta = distance_weights(distances, options);
+  if (gradients) distance_weight_gradients(d.boundary, X, distances, variant, f.theta);
+  f.w = blending_weights(f.theta, d.boundary, X);
+  return f;
+}
+
+// Entries of one point, to tell whether two points lie in the same smooth piece.
+template <int Dim>
+std::vector<std::pair<int, int>> pieces(const DistanceWeights<Dim>& theta) {
+  std::vector<std::pair<int, int>> result;
+  for (size_t e = 0; e < theta.part.size(); ++e) result.push_back({theta.part[e], theta.piece[e]});
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("gradients of theta, w and the blended map are their finite differences", T, D2, D3) {
+  constexpr int Dim = T::value;
+  MethodOptions options;
+  options.rays.n_rays = 4;
+  options.weights.cutoff = 3;
+  options.projection.degree = 2;
+  const auto d = discretize<Dim>({curved_solid<Dim>()}, options);
+  const double h = 1e-4;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> inside_box(0, 1);
+  const Eigen::VectorXd z = affine_field<Dim>(d.unknowns, Mat<Dim>::Identity(), Vec<Dim>::Zero()).array().square();
+  for (const auto variant : {DistanceWeight::published, DistanceWeight::draft, DistanceWeight::distance_only}) {
+    int n_checked = 0, n_by_hit = 0;
+    for (int trial = 0; trial < 150; ++trial) {
+      Vec<Dim> X;
+      for (int a = 0; a < Dim; ++a)
+        X[a] = d.boundary.box.lower[a] + inside_box(random) * (d.boundary.box.upper - d.boundary.box.lower)[a];
+      if (!inside(d.boundary, d.loops, X)) continue;
+      const auto here = fields_at<Dim>(d, X, variant, true);
+      if (here.w.uncovered.size() > 0) continue;
+      const auto map = blended_map<Dim>(X, here.w, d.origins, d.projection, d.unknowns.size(), true);
+      for (int axis = 0; axis < Dim; ++axis) {
+        // Central differences with two steps: their difference bounds what the finer one lacks.
+        const Vec<Dim> e_axis = Vec<Dim>::Unit(axis);
+        std::array<Fields<Dim>, 4> f;
+        const std::array<double, 4> at = {-h, -h / 2, h / 2, h};
+        bool smooth = true;
+        for (int i = 0; i < 4; ++i) {
+          f[i] = fields_at<Dim>(d, Vec<Dim>(X + at[i] * e_axis), variant, false);
+          smooth &= pieces(f[i].theta) == pieces(here.theta);
+        }
+        if (!smooth) continue;
+        const auto check = [&](double value, const auto& field) {
+          const double fine = (field(2) - field(1)) / h, coarse = (field(3) - field(0)) / (2 * h);
+          if (std::abs(fine - coarse) > 1e-2 * (1 + std::abs(fine))) return;  // a jump of the foot in between
+          // 1e-4: a closest point is certified in distance, so the foot is only good to about 1e-8.
+          CHECK(std::abs(value - fine) < 1e-4 * (1 + std::abs(fine)) + std::abs(fine - coarse));
+          ++n_checked;
+        };
+        for (size_t e = 0; e < here.theta.part.size(); ++e) {
+          check(here.theta.gradient[e][axis], [&](int i) { return f[i].theta.theta[e]; });
+          check(here.w.gradient[e][axis], [&](int i) { return f[i].w.w[e]; });
+          n_by_hit += here.theta.piece[e] >= 0;
+        }
+        const Eigen::Map<const Points<Dim>> vectors(z.data(), Dim, d.unknowns.size());
+        const Vec<Dim> F = vectors * dense_gradient(map, axis).transpose();
+        for (int a = 0; a < Dim; ++a)
+          check(F[a], [&](int i) {
+            const Vec<Dim> Y = X + at[i] * e_axis;
+            return evaluate(blended_map<Dim>(Y, f[i].w, d.origins, d.projection, d.unknowns.size(), false), z)(a, 0);
+          });
+      }
+    }
+    CHECK(n_checked > 100);
+    if (variant != DistanceWeight::distance_only) CHECK(n_by_hit > 30);
+  }
+}
+
+TEST_CASE_TEMPLATE("gradients of the blending weights sum to zero", T, D2, D3) {
+  constexpr int Dim = T::value;
+  MethodOptions options;
+  options.rays.n_rays = 3;
+  const auto d = discretize<Dim>({curved_solid<Dim>()}, options);
+  const auto f = fields_at<Dim>(d, d.quadrature.position, DistanceWeight::published, true);
+  for (int k = 0; k < f.w.n_points(); ++k) {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (int e = f.w.begin[k]; e < f.w.begin[k + 1]; ++e) sum += f.w.gradient[e];
+    CHECK(sum.norm() < 1e-12);
+  }
+}
