@@ -1,12 +1,12 @@
 #include "sem/mechanics/material.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "sem/base/error.h"
+#include "sem/solve/symmetric_eigen.h"
 
 namespace sem {
 namespace {
@@ -248,6 +248,16 @@ StressDerivative<Dim> corotated_derivative(const Material& material, const Mat<D
   return H;
 }
 
+// One matrix type for both dimensions, sized by its argument: compiled once.
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 9, 9>;
+
+SmallMatrix without_negative_eigenvalues(SmallMatrix H) {
+  const auto [values, vectors] = symmetric_eigen(H, H.rows());
+  for (Eigen::Index k = 0; k < values.size() && values(k) < 0; ++k)
+    H.noalias() -= (values(k) * vectors.col(k)) * vectors.col(k).transpose();
+  return H;
+}
+
 }  // namespace
 
 const char* name(MaterialModel model) {
@@ -341,12 +351,7 @@ StressDerivative<Dim> stress_derivative(const Material& material, const Mat<Dim>
 
 template <int Dim>
 StressDerivative<Dim> project_to_psd(const StressDerivative<Dim>& H) {
-  // One instantiation for both dimensions: the fixed-size ones double the compile time of this file.
-  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 9, 9>;
-  const Eigen::SelfAdjointEigenSolver<Small> eigen(H);
-  if (eigen.eigenvalues()(0) >= 0) return H;
-  const auto& Q = eigen.eigenvectors();
-  return Q * eigen.eigenvalues().cwiseMax(0).asDiagonal() * Q.transpose();
+  return without_negative_eigenvalues(H);
 }
 
 template <int Dim>

@@ -1,9 +1,8 @@
 #include "sem/method/projection.h"
 
-#include <Eigen/Jacobi>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sem/base/error.h"
 
@@ -19,35 +18,18 @@ struct PseudoInverse {
   double condition;
 };
 
-// Minimum-norm inverse of A; singular values below tolerance * largest are cut. Rotations of two
-// columns at a time (Hestenes 1958) make A V = U diag(sigma).
+// Minimum-norm inverse of A; singular values below tolerance * largest are cut.
 PseudoInverse pseudo_inverse(const MatrixXd& A, double tolerance) {
-  const double orthogonal = std::numeric_limits<double>::epsilon() * std::sqrt(double(A.rows()));
-  MatrixXd AV = A, V = MatrixXd::Identity(A.cols(), A.cols());
-  bool rotated = true;
-  for (int sweep = 0; rotated && sweep < 60; ++sweep) {  // converges in 5 to 10
-    rotated = false;
-    for (int p = 0; p < A.cols(); ++p)
-      for (int q = p + 1; q < A.cols(); ++q) {
-        const double pp = AV.col(p).squaredNorm(), qq = AV.col(q).squaredNorm();
-        const double pq = AV.col(p).dot(AV.col(q));
-        if (std::abs(pq) <= orthogonal * std::sqrt(pp * qq)) continue;
-        Eigen::JacobiRotation<double> rotation;
-        rotation.makeJacobi(pp, pq, qq);
-        AV.applyOnTheRight(p, q, rotation);
-        V.applyOnTheRight(p, q, rotation);
-        rotated = true;
-      }
-  }
-  const VectorXd sigma = AV.colwise().norm();
-  const double largest = sigma.maxCoeff();
-  PseudoInverse result{MatrixXd::Zero(A.cols(), A.rows()), 0, 1};
-  for (int k = 0; k < A.cols(); ++k) {
-    if (!(sigma[k] > tolerance * largest)) continue;
-    result.matrix += V.col(k) * (AV.col(k) / (sigma[k] * sigma[k])).transpose();
-    result.condition = std::max(result.condition, largest / sigma[k]);
-    ++result.rank;
-  }
+  const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const VectorXd& sigma = svd.singularValues();
+  int rank = 0;
+  while (rank < sigma.size() && sigma[rank] > tolerance * sigma[0]) ++rank;
+  PseudoInverse result;
+  result.rank = rank;
+  result.condition = rank > 0 ? sigma[0] / sigma[rank - 1] : 1;
+  result.matrix = svd.matrixV().leftCols(rank) *
+                  sigma.head(rank).cwiseInverse().asDiagonal() *
+                  svd.matrixU().leftCols(rank).transpose();
   return result;
 }
 

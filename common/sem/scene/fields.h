@@ -110,9 +110,6 @@ std::string closest_name(const std::string& word, const std::vector<std::string>
 void read_json(const std::string& text, const std::string& file,
                const std::vector<std::string>& overrides, const Fields::Body& body);
 
-/// The described fields as JSON text (two spaces of indentation, lists of numbers on one line).
-std::string write_json(const Fields::Body& body);
-
 /// The described fields as a table for people: key, type, unit, default, meaning.
 std::string document_fields(const Fields::Body& body);
 

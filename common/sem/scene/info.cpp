@@ -80,7 +80,7 @@ Json info_json(const Scene<Dim>& scene, const Model<Dim>& model) {
   json["condition_estimate"] = condition_json(scene, model);
   json["memory_MB"] = megabytes(model);
   for (const auto& stage : model.cost) json["cost_s"][stage.stage] = stage.seconds;
-  json["settings"] = Json::parse(write_scene(scene));
+  scene_to_json(scene, json["settings"]);
   return json;
 }
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <cctype>
 #include <set>
 
 #include "sem/base/error.h"
@@ -272,16 +272,40 @@ Json parse(const std::string& text, const std::string& file) {
   return {};
 }
 
+// "solids[0].material.density" as "solids", "[0", "material", "density": words of letters, digits and
+// underscores, indices of at most six digits. Empty if it is no such path.
+std::vector<std::string> steps_of_path(const std::string& path) {
+  std::vector<std::string> steps;
+  size_t at = 0;
+  const auto take = [&](auto allowed) {
+    const size_t begin = at;
+    while (at < path.size() && allowed(path[at])) ++at;
+    return path.substr(begin, at - begin);
+  };
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  for (;;) {
+    steps.push_back(take(is_word));
+    if (steps.back().empty()) return {};
+    while (at < path.size() && path[at] == '[') {
+      ++at;
+      steps.push_back("[" + take(is_digit));
+      if (steps.back().size() < 2 || steps.back().size() > 7 || at == path.size() || path[at++] != ']') return {};
+    }
+    if (at == path.size()) return steps;
+    if (path[at++] != '.') return {};
+  }
+}
+
 // Follows "solids[0].material.density" to the value it names, making objects on the way.
 Json& resolve(Json& root, const std::string& path, const std::string& pair) {
   const auto fail = [&](const std::string& found) {
     throw InputError("--set", pair, found, "key=value with the keys of a scene, as in solids[0].material.density=10");
   };
-  static const std::regex path_form(R"(\w+(\[\d{1,6}\])*(\.\w+(\[\d{1,6}\])*)*)"), step_form(R"(\w+|\[\d+\])");
-  if (path.size() > 1000 || !std::regex_match(path, path_form)) fail("'" + path + "', no valid path");
   Json* at = &root;
-  for (std::sregex_iterator step(path.begin(), path.end(), step_form), end; step != end; ++step) {
-    const std::string key = step->str();
+  const auto steps = steps_of_path(path);
+  if (path.size() > 1000 || steps.empty()) fail("'" + path + "', no valid path");
+  for (const std::string& key : steps) {
     if (key[0] == '[') {
       const size_t index = std::stoul(key.substr(1));
       if (!at->is_array() || index >= at->size()) fail("index " + std::to_string(index) + ", which is not in the scene");

@@ -1,4 +1,5 @@
 #include "sem/scene/read_scene.h"
+#include "sem/scene/json_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -343,9 +344,9 @@ Scene<Dim> read_scene(const std::string& text, const std::string& file, const Sh
 }
 
 template <int Dim>
-std::string write_scene(const Scene<Dim>& scene) {
+void scene_to_json(const Scene<Dim>& scene, nlohmann::ordered_json& json) {
   Scene<Dim> copy = scene;
-  return write_json([&](Fields& fields) { describe_scene<Dim>(fields, copy, {}); });
+  write_json([&](Fields& fields) { describe_scene<Dim>(fields, copy, {}); }, json);
 }
 
 template <int Dim>
@@ -356,8 +357,8 @@ std::string document_scene(const ShapeLibrary<Dim>& shapes) {
 
 template Scene<2> read_scene<2>(const std::string&, const std::string&, const ShapeLibrary<2>&, const std::vector<std::string>&);
 template Scene<3> read_scene<3>(const std::string&, const std::string&, const ShapeLibrary<3>&, const std::vector<std::string>&);
-template std::string write_scene<2>(const Scene<2>&);
-template std::string write_scene<3>(const Scene<3>&);
+template void scene_to_json<2>(const Scene<2>&, nlohmann::ordered_json&);
+template void scene_to_json<3>(const Scene<3>&, nlohmann::ordered_json&);
 template std::string document_scene<2>(const ShapeLibrary<2>&);
 template std::string document_scene<3>(const ShapeLibrary<3>&);
 

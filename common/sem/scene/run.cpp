@@ -13,7 +13,7 @@
 #include "sem/scene/files.h"
 #include "sem/scene/json_text.h"
 #include "sem/scene/monitor.h"
-#include "sem/scene/read_scene.h"
+#include "sem/scene/summary.h"
 #include "sem/solve/modes.h"
 
 namespace sem {
@@ -28,7 +28,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 // What a checkpoint depends on: all settings but names, outputs and how long the run goes on.
 template <int Dim>
 std::string settings_fingerprint(const Scene<Dim>& scene) {
-  Json settings = Json::parse(write_scene(scene));
+  Json settings;
+  scene_to_json(scene, settings);
   for (const char* key : {"name", "description", "output"}) settings.erase(key);
   settings["method"].erase("threads");
   settings["analysis"].erase("duration");
@@ -38,7 +39,9 @@ std::string settings_fingerprint(const Scene<Dim>& scene) {
 // The parts with the control points of a state, as a scene's `solids` has them.
 template <int Dim>
 std::string deformed_parts(const Scene<Dim>& scene, const Model<Dim>& model, const State& state) {
-  Json solids = Json::parse(write_scene(scene))["solids"];
+  Json json;
+  scene_to_json(scene, json);
+  Json& solids = json["solids"];
   int part = 0;
   const auto& boundary = model.discretization.boundary;
   const Points<Dim> p = control_points(model.discretization.unknowns, state.z);
@@ -190,62 +193,12 @@ class Run {
 
   // ---- summary
 
-  double column_maximum(const char* name) const {
-    double maximum = 0;
-    for (size_t c = 0; c < history_->columns().size(); ++c)
-      if (history_->columns()[c] == name)
-        for (int r = 0; r < history_->size(); ++r) maximum = std::max(maximum, std::abs(history_->row(r)[c]));
-    return maximum;
-  }
-
-  // Largest change of the total energy, by the largest energy exchanged.
-  Json energy_json() const {
-    const size_t kinetic = 2, elastic = 3, load = 5, total = 6;
-    double drift = 0, exchanged = 0;
-    const auto& first = history_->row(0);
-    for (int r = 0; r < history_->size(); ++r) {
-      const auto& row = history_->row(r);
-      drift = std::max(drift, std::abs(row[total] - first[total]));
-      for (const size_t c : {kinetic, elastic, load}) exchanged = std::max(exchanged, std::abs(row[c] - first[c]));
-    }
-    const double last = history_->row(history_->size() - 1)[total] - first[total];
-    return {{"largest_change_J", drift},
-            {"last_change_J", last},
-            {"largest_exchanged_J", exchanged},
-            {"relative_drift", exchanged > 0 ? drift / exchanged : 0}};
-  }
-
-  Json cost_json() const {
-    Json cost = Json::array();
-    for (const auto& stage : model_->cost) cost.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
-    cost.push_back({{"stage", "analysis"}, {"seconds", report_.seconds}});
-    cost.push_back({{"stage", "frames"}, {"seconds", output_seconds_}});
-    if (scene_.output.error_estimate) cost.push_back({{"stage", "error estimate"}, {"seconds", estimate_seconds_}});
+  std::vector<StageCost> all_cost() const {
+    std::vector<StageCost> cost = model_->cost;
+    cost.push_back({"analysis", report_.seconds});
+    cost.push_back({"frames", output_seconds_});
+    if (scene_.output.error_estimate) cost.push_back({"error estimate", estimate_seconds_});
     return cost;
-  }
-
-  Json estimate_json() const {
-    Json json;
-    json["meaning"] = "largest change when one setting is varied; an estimate, not a bound";
-    for (size_t c = 0; c < estimate_.columns.size(); ++c)
-      json["probes"].push_back({{"probe", estimate_.columns[c]},
-                                {"value", estimate_.value[c]},
-                                {"estimated_error", estimate_.estimate[c]}});
-    for (size_t c = 0; c < monitor_->probe_truths().size() && c < json["probes"].size(); ++c)
-      if (const auto truth = monitor_->probe_truths()[c]) {
-        json["probes"][c]["truth"] = *truth;
-        json["probes"][c]["error"] = std::abs(estimate_.value[c] - *truth);
-      }
-    for (const auto& variation : estimate_.variations) {
-      Json entry = {{"setting", variation.setting}};
-      if (variation.failure.empty())
-        entry["largest_change"] = variation.change;
-      else
-        entry["no_result"] = variation.failure;
-      entry["seconds"] = variation.seconds;
-      json["variations"].push_back(entry);
-    }
-    return json;
   }
 
   Json summary() const {
@@ -264,22 +217,15 @@ class Run {
                      {"map_fill", d.interior.fill()},
                      {"mass_kg", model_->total_mass()},
                      {"frames", result_.n_frames}};
-    json["cost"] = cost_json();
-    json["solver"] = {{"steps", report_.n_steps},
-                      {"steps_retried", report_.n_retried},
-                      {"iterations", report_.iterations},
-                      {"worst_residual", report_.residual},
-                      {"factorizations", report_.counters.n_factorizations},
-                      {"hessians", report_.counters.n_hessians},
-                      {"psd_projections", report_.counters.n_psd_projections},
-                      {"condition_estimate", report_.condition_estimate},
-                      {"seconds_per_step", report_.n_steps > 0 ? report_.seconds / double(report_.n_steps) : 0}};
+    json["cost"] = cost_json(all_cost());
+    json["solver"] = solver_json(report_);
     json["accuracy"] = to_json(accuracy_);
     if (scene_.analysis.kind != AnalysisKind::modes)
-      json["accuracy"]["largest_boundary_mismatch"] = column_maximum("boundary_mismatch");
-    if (scene_.analysis.kind == AnalysisKind::dynamics) json["accuracy"]["energy"] = energy_json();
-    if (scene_.output.error_estimate && !estimate_.columns.empty()) json["accuracy"]["solution"] = estimate_json();
-    json["settings"] = Json::parse(write_scene(scene_));
+      json["accuracy"]["largest_boundary_mismatch"] = column_maximum(*history_, "boundary_mismatch");
+    if (scene_.analysis.kind == AnalysisKind::dynamics) json["accuracy"]["energy"] = energy_json(*history_);
+    if (!estimate_.columns.empty())
+      json["accuracy"]["solution"] = estimate_json(estimate_, monitor_->probe_truths());
+    scene_to_json(scene_, json["settings"]);
     return json;
   }
 

@@ -4,6 +4,7 @@
 #include "sem/scene/fields.h"
 #include "sem/scene/files.h"
 #include "sem/scene/json_text.h"
+#include "sem/scene/read_scene.h"
 
 namespace sem {
 namespace {
@@ -163,11 +164,21 @@ std::string json_text(const Json& json) {
   return out + "\n";
 }
 
-std::string write_json(const Fields::Body& body) {
+void write_json(const Fields::Body& body, Json& json) {
   FieldWriter writer;
   body(writer);
-  return json_text(writer.json);
+  json = std::move(writer.json);
 }
+
+template <int Dim>
+std::string write_scene(const Scene<Dim>& scene) {
+  Json json;
+  scene_to_json(scene, json);
+  return json_text(json);
+}
+
+template std::string write_scene<2>(const Scene<2>&);
+template std::string write_scene<3>(const Scene<3>&);
 
 std::string document_fields(const Fields::Body& body) {
   FieldDocumenter documenter(0);

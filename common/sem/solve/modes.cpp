@@ -1,12 +1,13 @@
 #include "sem/solve/modes.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "sem/solve/cholesky.h"
+#include "sem/solve/symmetric_eigen.h"
 
 namespace sem {
 
@@ -56,16 +57,21 @@ Modes vibration_modes(const System& system, const Eigen::VectorXd& z, int n_mode
     modes.status = Status::singular;
     return modes;
   }
+  // M phi = mu (K + s M) phi with K + s M = L L^T: L^-1 M L^-T (L^T phi) = mu (L^T phi).
+  const Eigen::LLT<Eigen::MatrixXd> llt(K + shift * M);
+  const auto L = llt.matrixL();
+  const auto eigen = symmetric_eigen<Eigen::MatrixXd>(L.solve(L.solve(M).transpose()),
+                                                      std::clamp(n_modes, 0, n_free));
   // mu descending = omega ascending; mu = 0 without mass.
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(M, K + shift * M);
-  const Eigen::VectorXd mu = eigen.eigenvalues().reverse();
+  const Eigen::VectorXd mu = eigen.values.reverse();
   const double no_mass = 8 * n_free * epsilon * std::max(mu(0), 0.);
   const int n_massive = int((mu.array() > no_mass).count());
   modes.n_massless = n_free - n_massive;
 
   const int n_found = std::clamp(n_modes, 0, n_massive);
   std::vector<std::pair<double, int>> order;
-  Eigen::MatrixXd shapes = eigen.eigenvectors().rowwise().reverse().leftCols(n_found);
+  const Eigen::MatrixXd shapes =
+      llt.matrixU().solve(eigen.vectors.rightCols(n_found).rowwise().reverse());
   for (int k = 0; k < n_found; ++k) order.push_back({signed_omega(shapes.col(k), K, M), k});
   std::stable_sort(order.begin(), order.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -99,8 +105,7 @@ bool is_singular(const Eigen::MatrixXd& A) {
     scale(i) = 1 / std::sqrt(size);
   }
   const Eigen::MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled, Eigen::EigenvaluesOnly);
-  const auto values = eigen.eigenvalues().cwiseAbs().eval();
+  const Eigen::VectorXd values = symmetric_eigen(scaled, 0).values.cwiseAbs();
   return values.minCoeff() <= zero_level(A.rows()) * values.maxCoeff();
 }
 

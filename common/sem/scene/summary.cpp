@@ -1,0 +1,76 @@
+#include "sem/scene/summary.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace sem {
+
+using Json = nlohmann::ordered_json;
+
+Json cost_json(const std::vector<StageCost>& cost) {
+  Json json = Json::array();
+  for (const auto& stage : cost) json.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
+  return json;
+}
+
+Json solver_json(const AnalysisReport& report) {
+  return {{"steps", report.n_steps},
+          {"steps_retried", report.n_retried},
+          {"iterations", report.iterations},
+          {"worst_residual", report.residual},
+          {"factorizations", report.counters.n_factorizations},
+          {"hessians", report.counters.n_hessians},
+          {"psd_projections", report.counters.n_psd_projections},
+          {"condition_estimate", report.condition_estimate},
+          {"seconds_per_step", report.n_steps > 0 ? report.seconds / double(report.n_steps) : 0}};
+}
+
+Json energy_json(const Table& history) {
+  const size_t kinetic = 2, elastic = 3, load = 5, total = 6;
+  double drift = 0, exchanged = 0;
+  const auto& first = history.row(0);
+  for (int r = 0; r < history.size(); ++r) {
+    const auto& row = history.row(r);
+    drift = std::max(drift, std::abs(row[total] - first[total]));
+    for (const size_t c : {kinetic, elastic, load}) exchanged = std::max(exchanged, std::abs(row[c] - first[c]));
+  }
+  return {{"largest_change_J", drift},
+          {"last_change_J", history.row(history.size() - 1)[total] - first[total]},
+          {"largest_exchanged_J", exchanged},
+          {"relative_drift", exchanged > 0 ? drift / exchanged : 0}};
+}
+
+Json estimate_json(const ErrorEstimate& estimate, const std::vector<std::optional<double>>& truths) {
+  Json json;
+  json["meaning"] = "largest change when one setting is varied; an estimate, not a bound";
+  for (size_t c = 0; c < estimate.columns.size(); ++c) {
+    Json probe = {{"probe", estimate.columns[c]},
+                  {"value", estimate.value[c]},
+                  {"estimated_error", estimate.estimate[c]}};
+    if (c < truths.size() && truths[c]) {
+      probe["truth"] = *truths[c];
+      probe["error"] = std::abs(estimate.value[c] - *truths[c]);
+    }
+    json["probes"].push_back(std::move(probe));
+  }
+  for (const auto& variation : estimate.variations) {
+    Json entry = {{"setting", variation.setting}};
+    if (variation.failure.empty())
+      entry["largest_change"] = variation.change;
+    else
+      entry["no_result"] = variation.failure;
+    entry["seconds"] = variation.seconds;
+    json["variations"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+double column_maximum(const Table& history, const std::string& column) {
+  double maximum = 0;
+  for (size_t c = 0; c < history.columns().size(); ++c)
+    if (history.columns()[c] == column)
+      for (int r = 0; r < history.size(); ++r) maximum = std::max(maximum, std::abs(history.row(r)[c]));
+  return maximum;
+}
+
+}  // namespace sem
