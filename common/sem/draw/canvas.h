@@ -1,7 +1,6 @@
 #pragma once
 // What a picture can be drawn on. Nothing here knows of a back end: RasterCanvas
-// (raster.h) turns the calls into pixels; other back ends implement the same seven
-// virtual functions.
+// (raster.h) turns the calls into pixels, SvgCanvas (svg.h) into vectors.
 //
 // Coordinates and lengths are in output pixels, origin at the top left corner, x to the
 // right and y down; pixel (i, j) covers [i, i + 1] x [j, j + 1]. Later calls cover earlier ones.
@@ -69,7 +68,8 @@ class Canvas {
   virtual double text_width(const std::string& utf8, double size) = 0;
 
   /// Stretches an image over the rectangle, its first row at the top; every value of the image is
-  /// one sharp-edged cell (heat maps show their data, not an interpolation).
+  /// one sharp-edged cell (heat maps show their data, not an interpolation). Pixels of the colour
+  /// `left_out` show what is below.
   virtual void image(const Image& image, const Box<2>& rectangle) = 0;
 
   /// Until the matching pop, nothing is drawn outside of the rectangle (rounded to whole pixels or

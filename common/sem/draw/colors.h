@@ -34,6 +34,9 @@ constexpr Color categorical(int i) { return okabe_ito[i % okabe_ito.size()]; }
 /// between eleven of its entries; gray if t is not a number.
 Color viridis(double t);
 
+/// Blue at 0, white at 1/2, red at 1, as light on one side as on the other; t as above.
+Color diverging(double t);
+
 /// (1 - t) a + t b.
 constexpr Color mix(const Color& a, const Color& b, double t) {
   return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b),

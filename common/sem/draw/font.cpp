@@ -3,6 +3,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "sem/base/error.h"
@@ -27,6 +28,24 @@ std::string font_file() {
 }
 
 }  // namespace
+
+Vec<2> text_origin(const Vec<2>& position, const TextStyle& style, double width) {
+  using Horizontal = TextStyle::Horizontal;
+  using Vertical = TextStyle::Vertical;
+  // In the frame of the text: x along the baseline, y down from the anchor.
+  double left = 0, baseline = 0;
+  if (style.horizontal != Horizontal::left)
+    left = -width * (style.horizontal == Horizontal::center ? 0.5 : 1);
+  if (style.vertical == Vertical::top) baseline = font_cap_height * style.size;
+  if (style.vertical == Vertical::middle) baseline = font_cap_height * style.size / 2;
+  if (style.vertical == Vertical::bottom) baseline = -font_descent * style.size;
+  const Vec<2> along = style.upward ? Vec<2>(0, -1) : Vec<2>(1, 0);
+  const Vec<2> down = style.upward ? Vec<2>(1, 0) : Vec<2>(0, 1);
+  Vec<2> origin = position + left * along + baseline * down;
+  const int across = style.upward ? 0 : 1;
+  origin[across] = std::round(origin[across]);
+  return origin;
+}
 
 Font::Font(double size) : size_(size), atlas_(new ImFontAtlas) {
   atlas_->Flags |= ImFontAtlasFlags_NoMouseCursors | ImFontAtlasFlags_NoBakedLines;

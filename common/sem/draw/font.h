@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "sem/draw/canvas.h"
+
 struct ImFontAtlas;
 struct ImFontGlyph;
 
@@ -12,6 +14,10 @@ namespace sem {
 
 /// Height of a capital letter and depth of the letter p, in ems of DejaVu Sans.
 constexpr double font_cap_height = 0.729, font_descent = 0.236;
+
+/// Where the baseline of a text of the given width starts, in pixels of the canvas, for its anchor;
+/// the baseline lies on a whole pixel.
+Vec<2> text_origin(const Vec<2>& position, const TextStyle& style, double width);
 
 class Font {
  public:

@@ -1,5 +1,6 @@
 #include "sem/draw/image.h"
 
+#include <stb_image.h>
 #include <stb_image_write.h>
 
 #include <algorithm>
@@ -30,17 +31,30 @@ std::uint32_t crc32(const std::uint8_t* begin, const std::uint8_t* end) {
   return ~crc;
 }
 
-/// The chunk that states the number of pixels per metre.
-std::vector<std::uint8_t> physical_size_chunk(double dots_per_inch) {
+/// A chunk of a PNG file: length, name, content, check sum.
+void append_chunk(std::vector<std::uint8_t>& bytes, const char (&name)[5],
+                  const std::vector<std::uint8_t>& content) {
+  append_big_endian(bytes, std::uint32_t(content.size()));
+  const std::size_t checked = bytes.size();
+  bytes.insert(bytes.end(), name, name + 4);
+  bytes.insert(bytes.end(), content.begin(), content.end());
+  append_big_endian(bytes, crc32(bytes.data() + checked, bytes.data() + bytes.size()));
+}
+
+/// What stands between the header and the pixels.
+std::vector<std::uint8_t> extra_chunks(const Image& image, double dots_per_inch) {
   const auto per_metre = std::uint32_t(std::lround(dots_per_inch / 0.0254));
-  std::vector<std::uint8_t> chunk;
-  append_big_endian(chunk, 9);
-  for (char c : {'p', 'H', 'Y', 's'}) chunk.push_back(std::uint8_t(c));
-  append_big_endian(chunk, per_metre);
-  append_big_endian(chunk, per_metre);
-  chunk.push_back(1);  // the unit is the metre
-  append_big_endian(chunk, crc32(chunk.data() + 4, chunk.data() + chunk.size()));
-  return chunk;
+  std::vector<std::uint8_t> chunks, size;
+  append_big_endian(size, per_metre);
+  append_big_endian(size, per_metre);
+  size.push_back(1);  // the unit is the metre
+  append_chunk(chunks, "pHYs", size);
+  if (image.left_out) {
+    std::vector<std::uint8_t> color;  // 16 bits a component
+    for (const std::uint8_t part : *image.left_out) color.insert(color.end(), {0, part});
+    append_chunk(chunks, "tRNS", color);
+  }
+  return chunks;
 }
 
 [[noreturn]] void cannot_write(const std::string& path, int error) {
@@ -50,9 +64,9 @@ std::vector<std::uint8_t> physical_size_chunk(double dots_per_inch) {
 
 }  // namespace
 
-Image viridis_ramp() {
+Image color_ramp(Color (*map)(double)) {
   Image ramp(1, 256);
-  for (int row = 0; row < 256; ++row) ramp.set(0, row, colors::viridis(1 - row / 255.0));
+  for (int row = 0; row < 256; ++row) ramp.set(0, row, map(1 - row / 255.0));
   return ramp;
 }
 
@@ -72,9 +86,9 @@ std::vector<std::uint8_t> encode_png(const Image& image, double dots_per_inch) {
   };
   if (!stbi_write_png_to_func(append, &png, image.width, image.height, 3, image.rgb.data(), 0))
     throw std::bad_alloc();
-  const auto physical_size = physical_size_chunk(dots_per_inch);
+  const auto extra = extra_chunks(image, dots_per_inch);
   constexpr int header_end = 8 + 25;  // signature and IHDR
-  png.insert(png.begin() + header_end, physical_size.begin(), physical_size.end());
+  png.insert(png.begin() + header_end, extra.begin(), extra.end());
   return png;
 }
 
@@ -94,6 +108,33 @@ void write_png(const std::string& path, const Image& image, double dots_per_inch
   const int reason = error ? error.value() : errno;
   std::filesystem::remove(temporary, error);
   cannot_write(path, reason);
+}
+
+Image read_png(const std::string& path) {
+  Image image;
+  int n_channels = 0;
+  std::uint8_t* const rgb = stbi_load(path.c_str(), &image.width, &image.height, &n_channels, 3);
+  if (!rgb) throw InputError(path, "", stbi_failure_reason(), "a PNG file that can be read");
+  image.rgb.assign(rgb, rgb + std::size_t(3) * image.width * image.height);
+  stbi_image_free(rgb);
+  return image;
+}
+
+Image shrunk(const Image& image, int n) {
+  Image small((image.width + n - 1) / n, (image.height + n - 1) / n);
+  for (int row = 0; row < small.height; ++row)
+    for (int column = 0; column < small.width; ++column) {
+      const int right = std::min((column + 1) * n, image.width),
+                bottom = std::min((row + 1) * n, image.height);
+      int sum[3] = {0, 0, 0};
+      for (int y = row * n; y < bottom; ++y)
+        for (int x = column * n; x < right; ++x)
+          for (int i = 0; i < 3; ++i) sum[i] += image.pixel(x, y)[i];
+      const int count = (right - column * n) * (bottom - row * n);
+      for (int i = 0; i < 3; ++i)
+        small.pixel(column, row)[i] = std::uint8_t((sum[i] + count / 2) / count);
+    }
+  return small;
 }
 
 }  // namespace sem

@@ -1,8 +1,10 @@
 #pragma once
 // An image of 8-bit RGB pixels and its PNG file.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@ namespace sem {
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
+  std::optional<std::array<std::uint8_t, 3>> left_out = {};  ///< colour of pixels that show nothing
 
   Image() = default;
   Image(int n_columns, int n_rows)
@@ -27,11 +30,19 @@ struct Image {
   void set(int column, int row, const Color& color);
 };
 
-/// A column of 256 pixels of the colour map viridis, its largest value on top: for colour bars.
-Image viridis_ramp();
+/// A column of 256 pixels of a colour map, its largest value on top: for colour bars.
+Image color_ramp(Color (*map)(double));
+inline Image viridis_ramp() { return color_ramp(colors::viridis); }
 
-/// The bytes of a PNG file (8-bit RGB) that states `dots_per_inch` in its pHYs chunk.
+/// The bytes of a PNG file (8-bit RGB) that states `dots_per_inch` in its pHYs chunk, and the
+/// colour left out in its tRNS chunk.
 std::vector<std::uint8_t> encode_png(const Image& image, double dots_per_inch = 96);
+
+/// The picture in a PNG file, its opacity ignored. Throws InputError if it cannot be read.
+Image read_png(const std::string& path);
+
+/// Mean of each block of n x n pixels, rounded; blocks at the right and lower edge may be smaller.
+Image shrunk(const Image& image, int n);
 
 /// Writes the PNG under a temporary name in the same folder, then renames it: the file is whole or
 /// absent. Throws InputError if it cannot be written.

@@ -22,7 +22,7 @@ struct OffscreenContext::Impl {
   int width, height;
   std::vector<std::uint8_t> pixels;  // what OSMesa renders to
   OSMesaContext context = nullptr;
-  GLuint frame = 0, color = 0, stencil = 0;
+  GLuint frame = 0, color = 0, stencil = 0;  // 0: the plain buffer, which is `pixels`
 
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(
@@ -47,7 +47,7 @@ struct OffscreenContext::Impl {
   }
 };
 
-OffscreenContext::OffscreenContext(int width, int height) : impl_(new Impl) {
+OffscreenContext::OffscreenContext(int width, int height, Buffer buffer) : impl_(new Impl) {
   impl_->width = width;
   impl_->height = height;
   impl_->pixels.resize(4 * std::size_t(width) * height);
@@ -64,6 +64,7 @@ OffscreenContext::OffscreenContext(int width, int height) : impl_(new Impl) {
   if (!impl_->context) impl_->fail("no context");
   try {
     impl_->bind();
+    if (buffer == Buffer::plain) return;
     glGenFramebuffers(1, &impl_->frame);
     glBindFramebuffer(GL_FRAMEBUFFER, impl_->frame);
     impl_->color = Impl::attach(GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height);
@@ -86,8 +87,10 @@ void OffscreenContext::make_current() {
 const std::uint8_t* OffscreenContext::read() {
   make_current();
   const int w = impl_->width, h = impl_->height;
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-  glBlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  if (impl_->frame != 0) {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  }
   glFinish();
   glBindFramebuffer(GL_FRAMEBUFFER, impl_->frame);
   return impl_->pixels.data();

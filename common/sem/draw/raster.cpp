@@ -94,6 +94,17 @@ GLuint make_texture(GLenum format, int width, int height, const void* data, GLin
   return id;
 }
 
+/// RGBA bytes: the colour left out is transparent, all others opaque.
+std::vector<std::uint8_t> with_opacity(const Image& image) {
+  std::vector<std::uint8_t> rgba;
+  rgba.reserve(image.rgb.size() / 3 * 4);
+  for (auto at = image.rgb.begin(); at != image.rgb.end(); at += 3) {
+    rgba.insert(rgba.end(), at, at + 3);
+    rgba.push_back(std::equal(at, at + 3, image.left_out->begin()) ? 0 : 255);
+  }
+  return rgba;
+}
+
 /// Mean of each block of S x S pixels, rounded.
 template <int S>
 Image box_filter(const std::uint8_t* rgba, int width, int height) {
@@ -347,23 +358,12 @@ double RasterCanvas::text_width(const std::string& utf8, double size) {
 }
 
 void RasterCanvas::text(const Vec<2>& position, const std::string& utf8, const TextStyle& style) {
-  using Horizontal = TextStyle::Horizontal;
-  using Vertical = TextStyle::Vertical;
   if (!position.allFinite() || !(style.size > 0)) return;
   const Font& font = impl_->font(style.size);
   const double unit = style.size / font.size();  // output pixels per pixel of the texture
-  // In the frame of the text: x along the baseline, y down from the anchor.
-  double left = 0, baseline = 0;
-  if (style.horizontal != Horizontal::left)
-    left = -font.width(utf8) * unit * (style.horizontal == Horizontal::center ? 0.5 : 1);
-  if (style.vertical == Vertical::top) baseline = font_cap_height * style.size;
-  if (style.vertical == Vertical::middle) baseline = font_cap_height * style.size / 2;
-  if (style.vertical == Vertical::bottom) baseline = -font_descent * style.size;
+  const Vec<2> origin = text_origin(position, style, font.width(utf8) * unit);
   const Vec<2> along = style.upward ? Vec<2>(0, -1) : Vec<2>(1, 0);
   const Vec<2> down = style.upward ? Vec<2>(1, 0) : Vec<2>(0, 1);
-  Vec<2> origin = position + left * along + baseline * down;
-  const int across = style.upward ? 0 : 1;
-  origin[across] = std::round(origin[across]);
   font.for_each_glyph(utf8, [&](const ImFontGlyph& glyph, double x) {
     if (!glyph.Visible) return;
     const auto at = [&](double gx, double gy) -> Vec<2> {
@@ -380,7 +380,10 @@ void RasterCanvas::text(const Vec<2>& position, const std::string& utf8, const T
 void RasterCanvas::image(const Image& image, const Box<2>& rectangle) {
   if (image.width == 0 || image.height == 0) return;
   impl_->activate();
-  const GLuint id = make_texture(GL_RGB, image.width, image.height, image.rgb.data(), GL_NEAREST);
+  const GLuint id =
+      image.left_out
+          ? make_texture(GL_RGBA, image.width, image.height, with_opacity(image).data(), GL_NEAREST)
+          : make_texture(GL_RGB, image.width, image.height, image.rgb.data(), GL_NEAREST);
   impl_->image_textures.push_back(id);
   const Vec<2>&a = rectangle.lower, &b = rectangle.upper;
   impl_->quad({a, {b[0], a[1]}, b, {a[0], b[1]}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, id,

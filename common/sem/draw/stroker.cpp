@@ -7,9 +7,6 @@
 namespace sem {
 namespace {
 
-/// 1 / sin(half the corner's angle) up to which a corner is mitred: 60 degrees.
-constexpr double miter_limit = 2.0 + 1e-9;
-
 Vec<2> left_normal(const Vec<2>& d) { return {-d[1], d[0]}; }
 double cross(const Vec<2>& a, const Vec<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
 
@@ -80,41 +77,6 @@ class Outline {
   std::vector<Vec<2>>& triangles_;
 };
 
-/// Chains of distinct finite points. A closed line with a gap becomes open.
-struct Chain {
-  std::vector<Vec<2>> points;
-  bool closed = false;
-};
-
-std::vector<Chain> split_at_gaps(std::span<const Vec<2>> points, bool closed) {
-  std::vector<Chain> chains(1);
-  bool gap = false;
-  for (const auto& x : points) {
-    auto& chain = chains.back().points;
-    if (!x.allFinite()) {
-      gap = true;
-      if (!chain.empty()) chains.emplace_back();
-    } else if (chain.empty() || x != chain.back()) {
-      chain.push_back(x);
-    }
-  }
-  if (chains.back().points.empty()) chains.pop_back();
-  if (!closed || chains.empty()) return chains;
-  const bool ends_finite = points.front().allFinite() && points.back().allFinite();
-  if (!gap) {
-    auto& chain = chains[0];
-    if (chain.points.size() > 1 && chain.points.front() == chain.points.back())
-      chain.points.pop_back();
-    chain.closed = chain.points.size() > 1;
-  } else if (ends_finite) {  // the last chain continues with the first
-    auto& last = chains.back().points;
-    const auto& first = chains.front().points;
-    last.insert(last.end(), first.begin() + (last.back() == first.front()), first.end());
-    chains.erase(chains.begin());
-  }
-  return chains;
-}
-
 /// The drawn pieces of a chain; the pattern repeats and starts at the first point.
 std::vector<Chain> dashes(const Chain& chain, const std::vector<double>& pattern) {
   double total = 0;
@@ -146,6 +108,35 @@ std::vector<Chain> dashes(const Chain& chain, const std::vector<double>& pattern
 }
 
 }  // namespace
+
+std::vector<Chain> split_at_gaps(std::span<const Vec<2>> points, bool closed) {
+  std::vector<Chain> chains(1);
+  bool gap = false;
+  for (const auto& x : points) {
+    auto& chain = chains.back().points;
+    if (!x.allFinite()) {
+      gap = true;
+      if (!chain.empty()) chains.emplace_back();
+    } else if (chain.empty() || x != chain.back()) {
+      chain.push_back(x);
+    }
+  }
+  if (chains.back().points.empty()) chains.pop_back();
+  if (!closed || chains.empty()) return chains;
+  const bool ends_finite = points.front().allFinite() && points.back().allFinite();
+  if (!gap) {
+    auto& chain = chains[0];
+    if (chain.points.size() > 1 && chain.points.front() == chain.points.back())
+      chain.points.pop_back();
+    chain.closed = chain.points.size() > 1;
+  } else if (ends_finite) {  // the last chain continues with the first
+    auto& last = chains.back().points;
+    const auto& first = chains.front().points;
+    last.insert(last.end(), first.begin() + (last.back() == first.front()), first.end());
+    chains.erase(chains.begin());
+  }
+  return chains;
+}
 
 std::vector<Vec<2>> stroke_triangles(std::span<const Vec<2>> points, const Stroke& style,
                                      double tolerance) {
