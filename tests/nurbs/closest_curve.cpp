@@ -119,3 +119,26 @@ TEST_CASE("closest point with degree 24 and with coincident control points") {
     CHECK(closest_point<2>(prepare(curve), X).distance <= truth + 1e-12);
   }
 }
+
+TEST_CASE("closest point whose parameter is where the search splits") {
+  std::mt19937 random(17);
+  for (int trial = 0; trial < 400; ++trial) {
+    const int degree = 2 + trial % 4;
+    const auto curve = random_nurbs<1, 2>(random, degree, 1, true, trial % 2 == 0, false);
+    const auto [lower, upper] = domain(curve, 0);
+    for (const double s : {0.5, 0.25, 0.75, 0.125, 0.625, 0.9375}) {
+      const auto at = derivatives(curve, Param<1>(lower + s * (upper - lower)), 1);
+      const Vec<2> normal = Vec<2>(-at.first(1), at.first(0)).normalized();
+      for (const double height : {0., 1e-3, -0.05}) {
+        const auto found = closest_point<2>(prepare(curve), Vec<2>(at.point + height * normal));
+        CHECK(found.distance <= std::abs(height) + 1e-14);
+      }
+    }
+  }
+  // Symmetric, so that the foot is exactly in the middle.
+  Points<2> points(2, 3);
+  points << -1, 0, 1, 0, 1, 0;
+  const auto found = closest_point<2>(prepare(test::bezier(points)), Vec<2>(0, 0.5 - 0.25));
+  CHECK(found.u[0] == 0.5);
+  CHECK(found.distance == doctest::Approx(0.25).epsilon(1e-14));
+}

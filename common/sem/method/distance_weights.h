@@ -18,7 +18,7 @@ enum class DistanceWeight {
 struct WeightOptions {
   DistanceWeight variant = DistanceWeight::published;
   double cutoff = 1;               ///< alpha, m
-  std::optional<double> sparsity;  ///< T in (0, 1]: alpha so that this share of the weights is non-zero
+  std::optional<double> sparsity = {};  ///< T in (0, 1]: alpha so that this share of the weights is non-zero
 };
 
 /// What the weights of one part at one point are made of; alpha-free. Stored

@@ -111,7 +111,12 @@ class CurveClosest {
       add(piece, x.a);
       return true;
     }
-    if (n_changes == 0 || (n_changes == 1 && first_sign > 0)) return true;
+    if (n_changes == 0 || (n_changes == 1 && first_sign > 0)) {
+      // A minimum where the stretch was split off its neighbour: - here and + there, or the reverse.
+      if (first_sign > 0 && std::abs(x.g[0]) <= rounding) add(piece, x.a);
+      if (sign < 0 && std::abs(x.g[degree]) <= rounding) add(piece, x.b);
+      return true;
+    }
     if (n_changes > 1 && x.depth < max_depth) return false;
     const double s = n_changes > 1 ? 0.5 : detail::single_root(x.g, degree, false, scratch_);
     add(piece, x.a + s * (x.b - x.a));
