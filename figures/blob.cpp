@@ -16,16 +16,19 @@ Discretization<2> builtin_body(const std::string& name, const std::vector<std::s
   throw InputError("", "scene", name, "a built-in scene");
 }
 
-std::vector<std::array<double, 3>> part_points(const Boundary<2>& boundary, int per_piece) {
-  std::vector<std::array<double, 3>> points;
+void add_curves(Data& data, const Boundary<2>& boundary, int per_piece) {
+  auto& curves = data.add("curves", {"part", "x", "y"});
   for (int i = 0; i < boundary.n_parts(); ++i)
     for (const auto& piece : boundary.parts[i].pieces)
       for (int k = 0; k <= per_piece; ++k) {
         const Param<1> u = piece.lower + double(k) / per_piece * (piece.upper - piece.lower);
         const Vec<2> X = sem::point(boundary.parts[i].nurbs, u);
-        points.push_back({double(i), X[0], X[1]});
+        curves.add({double(i), X[0], X[1]});
       }
-  return points;
+}
+
+std::vector<Vec<2>> outline(const Data& data) {
+  return zip(data["curves"]["x"], data["curves"]["y"]);
 }
 
 Color part_color(int part) {
@@ -33,17 +36,11 @@ Color part_color(int part) {
   return palette[part % 3];
 }
 
-void draw_parts(Canvas& canvas, const View2& view, const Data& curves,
-                const std::string& part_column, int highlighted) {
-  const auto x = curves.column("x"), y = curves.column("y"), part = curves.column(part_column);
-  for (size_t begin = 0, end; begin < x.size(); begin = end) {
-    Polyline line;
-    for (end = begin; end < x.size() && part[end] == part[begin]; ++end)
-      line.push_back(view.map({x[end], y[end]}));
-    const int index = int(part[begin]);
-    const double width = index == highlighted ? 2.4 : highlighted < 0 ? 1.8 : 1.0;
-    canvas.stroke(line,
-                  {.color = part_color(index), .width = width * point, .cap = Stroke::Cap::round});
+void draw_parts(Panel& panel, const Data& data, int highlighted) {
+  for (const auto& part : data["curves"].runs("part")) {
+    const int i = int(part.value("part"));
+    const double width = i == highlighted ? 2.4 : highlighted < 0 ? 1.8 : 1.0;
+    panel.curve(part["x"], part["y"], {.color = part_color(i), .width = width});
   }
 }
 

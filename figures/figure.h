@@ -1,54 +1,66 @@
 #pragma once
 // A figure: its numbers first, then a picture drawn only from them.
+//
+// To write one:
+//  1. figures/NAME.cpp holds, in an unnamed namespace, `Data compute()` and
+//     `void draw(Plot& plot, const Data& data)`, and below it `Figure NAME() { return {...}; }`.
+//  2. compute() runs the method and fills tables (data.h): one table per kind of thing, one row per
+//     thing, units in SI, names of columns that say what they hold. Columns that depend on the
+//     machine end in `_seconds` (or stand in Figure::measured): their values are not compared.
+//  3. draw() sets up panels (sem/plot/plot.h) from the tables and nothing else. The tool has
+//  written
+//     the tables to NAME.csv and read them back. No number is typed in except truths with their
+//     source.
+//  4. Declare NAME() below, list it in all_figures() (figure.cpp) and in CMakeLists.txt.
+//  5. Look at NAME.png at 100 %, then `sem_figures NAME --update` stores its reference.
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "sem/draw/canvas.h"
+#include "figures/data.h"
+#include "sem/plot/plot.h"
 
 namespace sem::figures {
 
-/// Rows of numbers with named columns, as they stand in the figure's CSV file.
-struct Data {
-  std::vector<std::string> columns;
-  std::vector<std::vector<double>> rows;
+inline constexpr double dots_per_inch = 300;
 
-  /// A column by name; asserts that it exists.
-  std::vector<double> column(const std::string& name) const;
-  /// The rows in which a column has a value.
-  Data where(const std::string& name, double value) const;
-};
-
-/// Comma separated, a line of names first; numbers read back as the same bits.
-std::string to_csv(const Data& data);
-/// Throws InputError, naming `file` and the line, for anything but a table of numbers.
-Data from_csv(const std::string& text, const std::string& file);
-
-/// Sizes are in inches; text is 8 pt at the final size of 300 dots per inch.
 struct Figure {
   std::string name;
-  std::string caption;
-  double width, height;
+  std::string caption;   ///< what it shows, for the gallery and --list
+  double width, height;  ///< inches; 3.3 or 7 wide
   std::function<Data()> compute;
-  std::function<void(Canvas&, const Data&)> draw;
+  std::function<void(Plot&, const Data&)> draw;
+  std::vector<std::string> measured = {};  ///< columns that no check compares, besides *_seconds
 };
 
-inline constexpr double dots_per_inch = 300;
-/// Points (1/72 inch) in pixels.
-inline constexpr double point = dots_per_inch / 72;
-inline constexpr double text_size = 8 * point;
-
-/// All figures, in the order of the draft.
+/// All figures, in the order of the gallery.
 const std::vector<Figure>& all_figures();
 
-/// Writes NAME.csv into the folder, then draws NAME.png from what the file holds. Throws InputError
-/// if a file cannot be written.
+/// Writes NAME.csv into the folder, then NAME.png (300 dots per inch) and NAME.svg from what the
+/// file holds. Throws InputError if a file cannot be written.
 void make_figure(const Figure& figure, const std::string& folder);
 
+/// The plot of the figure with these numbers.
+Plot plot_of(const Figure& figure, const Data& data);
+
+Figure teaser();
+Figure nurbs_curve();
+Figure error_energy();
 Figure distance_construction();
 Figure distance_weights();
 Figure raycast_quadrature();
+Figure theta_function();
+Figure limb_weights();
+Figure origin_network();
+Figure projection_blocks();
 Figure quadrature_convergence();
+Figure patch_test();
+Figure deflection_parts();
+Figure stiffness_sparsity();
+Figure nonzeros_step_time();
+Figure pruning();
+Figure integrators();
+Figure release();
 
 }  // namespace sem::figures

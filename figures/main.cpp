@@ -1,10 +1,13 @@
-// sem_figures: every figure from one command, its numbers (CSV) before its picture (PNG).
+// sem_figures: every figure from one command, its numbers (CSV) before its pictures (PNG, SVG).
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 
-#include "figures/figure.h"
+#include "figures/check.h"
+#include "figures/gallery.h"
 #include "sem/base/error.h"
 #include "sem/scene/fields.h"
 #include "sem/scene/files.h"
@@ -13,6 +16,12 @@ namespace {
 
 using namespace sem;
 using namespace sem::figures;
+
+struct Options {
+  std::vector<std::string> names;
+  std::string out = "out/figures", references = SEM_FIGURE_REFERENCES;
+  bool list = false, check = false, update = false;
+};
 
 std::vector<Figure> select(const std::vector<std::string>& names) {
   if (names.empty()) return all_figures();
@@ -32,34 +41,77 @@ std::vector<Figure> select(const std::vector<std::string>& names) {
   return selected;
 }
 
+// The page shows every figure that is in the folder, also from earlier calls.
+void write_gallery(const std::string& folder) {
+  std::vector<Figure> present;
+  for (const auto& figure : all_figures())
+    if (std::filesystem::exists(folder + "/" + figure.name + ".png")) present.push_back(figure);
+  write_file(folder + "/index.html", gallery_html(present));
+}
+
+// False if a reference differs.
+bool check(const std::vector<Figure>& figures, const Options& options) {
+  int n_differing = 0;
+  for (const auto& figure : figures) {
+    const auto differences =
+        check_figure(figure, figure.compute(), options.references, options.out);
+    std::cout << figure.name << (differences.empty() ? ": as stored" : ": DIFFERS") << std::endl;
+    for (const auto& text : differences) std::cout << "  " << text << std::endl;
+    n_differing += !differences.empty();
+  }
+  if (n_differing > 0)
+    std::cout << n_differing << " of " << figures.size() << " figures differ from "
+              << options.references << "; pictures that differ are in " << options.out
+              << "; --update stores the new ones" << std::endl;
+  return n_differing == 0;
+}
+
+bool run(const Options& options) {
+  const auto selected = select(options.names);
+  if (options.list) {
+    for (const auto& figure : selected)
+      std::printf("%-24s %s\n", figure.name.c_str(), figure.caption.c_str());
+    return true;
+  }
+  make_folder(options.out);
+  if (options.check) return check(selected, options);
+  if (options.update) make_folder(options.references);
+  for (const auto& figure : selected) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::string path = options.out + "/" + figure.name;
+    make_figure(figure, options.out);
+    if (options.update)
+      update_reference(figure, from_csv(read_file(path + ".csv"), path + ".csv"),
+                       options.references);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    std::printf("%s.png  %s (%.1f s)\n", path.c_str(), figure.caption.c_str(), elapsed.count());
+    std::fflush(stdout);
+  }
+  write_gallery(options.out);
+  return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"sem_figures: draws the figures, each from a CSV file of its numbers",
                "sem_figures"};
-  std::vector<std::string> names;
-  std::string folder = "out/figures";
-  bool list = false;
-  app.add_option("NAME", names, "figures to draw; all if none is named");
-  app.add_option("--out", folder, "output folder")->capture_default_str();
-  app.add_flag("--list", list, "list the figures");
+  Options options;
+  app.add_option("NAME", options.names, "figures to draw; all if none is named");
+  app.add_option("--out", options.out, "output folder")->capture_default_str();
+  app.add_flag("--list", options.list, "list the figures");
+  auto* check_flag = app.add_flag("--check", options.check,
+                                  "compare with the stored references; exit code 1 if one differs");
+  app.add_flag("--update", options.update, "replace the stored references")->excludes(check_flag);
+  app.add_option("--references", options.references, "folder of the stored references")
+      ->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
-    if (list) {
-      for (const auto& figure : all_figures())
-        std::printf("%-24s %s\n", figure.name.c_str(), figure.caption.c_str());
-      return 0;
-    }
-    const auto selected = select(names);
-    make_folder(folder);
-    for (const auto& figure : selected) {
-      make_figure(figure, folder);
-      std::cout << folder << "/" << figure.name << ".png  " << figure.caption << std::endl;
-    }
+    return run(options) ? 0 : 1;
   } catch (const InputError& error) {
     std::cerr << "sem_figures: " << error.what() << "\n";
     return 2;

@@ -1,100 +1,124 @@
 // The draft's figure 5: rays, hits, intervals and points of the interior quadrature.
-#include <algorithm>
 #include <cmath>
 
 #include "figures/blob.h"
-#include "sem/draw/view.h"
+#include "sem/nurbs/basis.h"
 
 namespace sem::figures {
 namespace {
 
-// What a row of the data is; x2 ends rays and intervals, value is the part or the weight.
-constexpr double curve = 0, ray = 1, interval = 2, hit = 3, quadrature_point = 4;
+constexpr int rays_between =
+    6;  // strips from the dip's lowest point to the highest point of the blob
+constexpr double touching = 1e-6;  // m: crossings as close as that are a ray that touches
 
-// As in the sketch the grid of rays reaches beyond the body, so that the outer rays miss it.
+// y of the point of the curve between the parameters where dy/du = 0, by bisection.
+double extremum(const Nurbs<1, 2>& curve, double u0, double u1) {
+  const auto slope = [&](double u) { return derivatives(curve, Param<1>(u), 1).first(1, 0); };
+  const bool rises = slope(u0) > 0;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = (u0 + u1) / 2;
+    ((slope(middle) > 0) == rises ? u0 : u1) = middle;
+  }
+  return sem::point(curve, Param<1>((u0 + u1) / 2))[1];
+}
+
+// The grid of rays reaches beyond the body, as in the sketch, so that the outer rays miss it, and
+// stands so that one ray touches the dip between the bumps and one the top.
+Rays<2> sketched_rays(Discretization<2>& body) {
+  const auto& red = body.boundary.parts[0].nurbs;
+  const double dip = extremum(red, 1.5, 3.5), top = extremum(red, 4.5, 6.5);
+  const double strip = (top - dip) / rays_between;
+  Box<2>& box = body.boundary.box;
+  const int n_below = int(std::ceil((dip - box.lower[1]) / strip)),
+            n_rays = n_below + rays_between + 2;
+  box.lower[1] = dip - (n_below + 0.5) * strip;
+  box.upper[1] = box.lower[1] + n_rays * strip;
+  return cast_rays(body.boundary, body.loops, {.axis = 0, .n_rays = n_rays});
+}
+
+// Number of hits at or within rounding of hit h.
+bool touches(const Ray<2>& ray, size_t h) {
+  if (!ray.hits[h].crosses) return true;
+  for (size_t other = 0; other < ray.hits.size(); ++other)
+    if (other != h && std::abs(ray.hits[other].t - ray.hits[h].t) < touching) return true;
+  return false;
+}
+
 Data compute() {
   auto body = builtin_body("blob");
-  body.boundary.box.lower[1] -= 0.2;
-  body.boundary.box.upper[1] += 0.2;
-  const Rays<2> rays = cast_rays(body.boundary, body.loops, {.axis = 0, .n_rays = 13});
+  const Rays<2> rays = sketched_rays(body);
   const auto quadrature = quadrature_on_rays(rays, {.spacing = 0.2});
-  Data data{{"kind", "x", "y", "x2", "value"}, {}};
-  for (const auto& [part, x, y] : part_points(body.boundary))
-    data.rows.push_back({curve, x, y, 0, part});
+  Data data;
+  add_curves(data, body.boundary);
   const auto& box = body.boundary.box;
-  for (const auto& one : rays.rays) {
-    const double y = one.origin[1];
-    data.rows.push_back({ray, box.lower[0] - 0.2, y, box.upper[0] + 0.2, 0});
-    for (const auto& stretch : one.intervals)
-      data.rows.push_back({interval, stretch.begin, y, stretch.end, 0});
-    for (const auto& at : one.hits) data.rows.push_back({hit, at.t, y, 0, double(at.part)});
+  auto& lines = data.add("rays", {"y", "x_begin", "x_end", "n_hits", "n_touching"});
+  for (const auto& ray : rays.rays) {
+    int n_touching = 0;
+    for (size_t h = 0; h < ray.hits.size(); ++h) n_touching += touches(ray, h);
+    lines.add({ray.origin[1], box.lower[0] - 0.2, box.upper[0] + 0.2, double(ray.hits.size()),
+               double(n_touching)});
   }
+  auto& intervals = data.add("intervals", {"y", "x_begin", "x_end"});
+  for (const auto& ray : rays.rays)
+    for (const auto& inside : ray.intervals)
+      intervals.add({ray.origin[1], inside.begin, inside.end});
+  auto& hits = data.add("hits", {"x", "y", "part", "touches"});
+  for (const auto& ray : rays.rays)
+    for (size_t h = 0; h < ray.hits.size(); ++h)
+      hits.add({ray.hits[h].t, ray.origin[1], double(ray.hits[h].part), double(touches(ray, h))});
+  auto& points = data.add("points", {"x", "y", "weight"});
   for (int k = 0; k < quadrature.size(); ++k)
-    data.rows.push_back({quadrature_point, quadrature.position(0, k), quadrature.position(1, k), 0,
-                         quadrature.weight[k]});
+    points.add({quadrature.position(0, k), quadrature.position(1, k), quadrature.weight[k]});
   return data;
 }
 
-constexpr double hit_size = 3.6 * point, point_size = 5 * point;
-constexpr Color ray_color{0.75, 0.75, 0.75}, interval_color{0.45, 0.45, 0.45};
-
-void draw_legend(Canvas& canvas, double y) {
-  const TextStyle text{.size = text_size, .vertical = TextStyle::Vertical::middle};
-  const auto line = [&](double x, const Color& color, double width) {
-    canvas.line({x * point, y}, {(x + 14) * point, y}, {.color = color, .width = width});
+void draw(Plot& plot, const Data& data) {
+  Panel& panel = plot.panel();
+  panel.equal = true;
+  panel.frame = false;
+  panel.legend = LegendPlace::below;
+  panel.area({outline(data)}, {0.95, 0.95, 0.96});
+  const DataTable &rays = data["rays"], &points = data["points"], &hits = data["hits"];
+  const auto lines = [&](const DataTable& table, const Series& style) {
+    panel.segments(zip(table["x_begin"], table["y"]), zip(table["x_end"], table["y"]), style);
   };
-  line(8, ray_color, 0.6 * point);
-  canvas.text({26 * point, y}, "ray", text);
-  line(52, interval_color, 1.4 * point);
-  canvas.text({70 * point, y}, "inside", text);
-  canvas.marker({111 * point, y}, MarkerShape::square, hit_size, colors::black);
-  canvas.text({117 * point, y}, "hit", text);
-  canvas.marker({146 * point, y}, MarkerShape::circle, point_size, colors::viridis(0.5));
-  canvas.text({152 * point, y}, "quadrature point", text);
-}
-
-void draw(Canvas& canvas, const Data& data) {
-  Box<2> world;
-  for (const auto& row : data.rows) {
-    world.include(Vec<2>(row[1], row[2]));
-    if (row[0] == ray) world.include(Vec<2>(row[3], row[2]));
+  lines(rays, {.label = "ray", .color = {0.75, 0.75, 0.75}, .width = 0.6});
+  lines(data["intervals"], {.label = "inside", .color = {0.45, 0.45, 0.45}, .width = 1.4});
+  draw_parts(panel, data);
+  const ColorScale scale = scale_of(points["weight"]);
+  panel.markers(zip(points["x"], points["y"]), points["weight"], scale, 4.5);
+  const DataTable crossings = hits.where("touches", 0), touched = hits.where("touches", 1);
+  panel.curve(crossings["x"], crossings["y"],
+              {.label = "hit", .width = 0, .marker = MarkerShape::square, .marker_size = 3.6});
+  panel.curve(touched["x"], touched["y"],
+              {.label = "hit that touches",
+               .color = colors::okabe_ito[3],
+               .width = 0,
+               .marker = MarkerShape::triangle,
+               .marker_size = 6});
+  panel.legend_entry({.label = "quadrature point",
+                      .color = colors::viridis(0.5),
+                      .width = 0,
+                      .marker = MarkerShape::circle,
+                      .marker_size = 4.5});
+  for (int r = 0; r < rays.n_rows(); ++r) {
+    const double n_hits = rays["n_hits"][r], n_touching = rays["n_touching"][r];
+    const std::string text = n_hits == 0 ? "misses" : n_touching > 0 ? "touches" : "";
+    if (!text.empty())
+      panel.note({rays["x_begin"][r], rays["y"][r]}, text, {.offset = {0, 2.5}, .size = 7});
   }
-  const View2 view(world, {Vec<2>(6 * point, 6 * point),
-                           Vec<2>(canvas.width() - 50 * point, canvas.height() - 24 * point)});
-  Polyline outline;
-  for (const auto& row : data.where("kind", curve).rows)
-    outline.push_back(view.map({row[1], row[2]}));
-  canvas.fill(outline, {0.95, 0.95, 0.96});
-  const auto horizontal = [&](const std::vector<double>& row, const Color& color, double width) {
-    canvas.line(view.map({row[1], row[2]}), view.map({row[3], row[2]}),
-                {.color = color, .width = width});
-  };
-  for (const auto& row : data.where("kind", ray).rows) horizontal(row, ray_color, 0.6 * point);
-  for (const auto& row : data.where("kind", interval).rows)
-    horizontal(row, interval_color, 1.4 * point);
-  draw_parts(canvas, view, data.where("kind", curve), "value", -1);
-  const auto points = data.where("kind", quadrature_point);
-  const auto weights = points.column("value");
-  const auto [least, largest] = std::minmax_element(weights.begin(), weights.end());
-  for (const auto& row : points.rows)
-    canvas.marker(view.map({row[1], row[2]}), MarkerShape::circle, point_size,
-                  colors::viridis((row[4] - *least) / (*largest - *least)));
-  for (const auto& row : data.where("kind", hit).rows)
-    canvas.marker(view.map({row[1], row[2]}), MarkerShape::square, hit_size, colors::black);
-  const double left = canvas.width() - 42 * point;
-  color_bar(canvas,
-            {Vec<2>(left, 16 * point), Vec<2>(left + 7 * point, canvas.height() - 34 * point)},
-            *least, *largest, "weight (m²)");
-  draw_legend(canvas, canvas.height() - 10 * point);
+  panel.color_bar(scale, "weight (m²)");
 }
 
 }  // namespace
 
 Figure raycast_quadrature() {
   return {"raycast_quadrature",
-          "Draft figure 5: raycast quadrature of the three-curve blob",
+          "Draft figure 5: raycast quadrature of the blob; a ray that misses has no hit, one that "
+          "touches "
+          "the boundary keeps its interval whole",
           3.3,
-          3.3,
+          3.6,
           compute,
           draw};
 }

@@ -62,9 +62,12 @@ void PlotLayout::arrange() {
     set_boxes();
   };
   settle();
-  bool moved = false;
-  for (auto& panel : panels_) moved = panel.move_legend() || moved;
-  if (moved) settle();
+  // A legend that moves out takes room from other panels, whose own may then fit no more; each moves once.
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (auto& panel : panels_) moved = panel.move_legend() || moved;
+    if (moved) settle();
+  }
 }
 
 void PlotLayout::place_tracks(std::vector<Track>& tracks, const std::vector<double>& shares,
