@@ -1,0 +1,74 @@
+#pragma once
+// Plots with axes (sem/plot) in a part of a tutorial's picture: curves, charts, errors of finite
+// differences, bars, and matrices as coloured cells.
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sem/lesson/picture.h"
+#include "sem/plot/plot.h"
+
+namespace sem::tutorial {
+
+/// A plot of one panel on all of the picture, or in a part of it.
+void draw_panel(Picture& picture, const Axis& x, const Axis& y,
+                const std::function<void(Panel& panel)>& content,
+                const std::optional<Box<2>>& rectangle = {});
+/// A line of a plot; dash 0: solid, 1, 2: others.
+Series line(const std::string& label, const Color& color, int dash = 0);
+/// A column of a matrix, for plots.
+inline std::vector<double> column(const Eigen::MatrixXd& m, int j) {
+  return {m.col(j).begin(), m.col(j).end()};
+}
+
+/// The columns of a matrix over `at`, with their names, in numbered colours and dashes.
+void draw_columns(Picture& picture, const Axis& x, const Axis& y, const std::vector<double>& at,
+                  const Eigen::MatrixXd& values, const std::vector<std::string>& names,
+                  const std::optional<Box<2>>& rectangle = {});
+
+/// An axis of counts from 0 to n, with a tick each.
+Axis count_axis(const std::string& label, int n);
+
+/// Values over their own x, in numbered colours, with markers if there are fewer than 12.
+struct Trace {
+  std::string label;
+  std::vector<double> x, y;
+};
+/// Eigenvalues of a symmetric matrix over the largest, from 1e-18 on, for a logarithmic axis.
+Trace spectrum(const std::string& label, const Eigen::MatrixXd& matrix);
+/// A panel with axes. Without any labels there is no legend.
+struct Chart {
+  Axis x, y;
+  std::vector<Trace> traces;
+  std::optional<double> now = {};  ///< marked on the x axis
+};
+/// Draws charts side by side, lettering of 16 pixels. Charts with the same labels share a legend.
+void draw_charts(Picture& picture, const std::vector<Chart>& charts);
+void draw_charts(Picture& picture, const std::vector<Chart>& charts, const Box<2>& rectangle);
+
+/// Central differences (f(x + h e_k) - f(x - h e_k)) / 2h for all unit vectors e_k and steps h from
+/// 0.1 down to 1e-11, against the derivative: as many rows as f, as many columns as x.
+struct Check {
+  std::vector<double> h, error;  ///< error: norm of the difference
+  using Function = std::function<Eigen::VectorXd(const Eigen::VectorXd& x)>;
+  Check(const Function& f, const Eigen::VectorXd& x, const Eigen::MatrixXd& derivative);
+  double order() const;  ///< of the error from h = 1e-2 to 1e-3
+  double least() const;
+};
+/// "order 2, least error < 1e-07".
+std::string text(const Check& check);
+/// Their errors against h on logarithmic axes.
+void draw_errors(Picture& picture, const std::vector<std::pair<std::string, Check>>& checks);
+
+/// Bars with their names on them.
+void draw_bars(Picture& picture, const std::string& y_label,
+               const std::vector<std::pair<std::string, double>>& bars);
+
+/// A matrix as coloured cells in a square, white = 0, red > 0, blue < 0, with lines before the rows
+/// and columns `first` (where parts begin).
+void draw_matrix(Picture& picture, const Eigen::MatrixXd& matrix, const std::vector<int>& first,
+                 const Box<2>& square);
+
+}  // namespace sem::tutorial
