@@ -157,8 +157,9 @@ Picture Lesson::draw(Canvas& canvas) const {
 }
 
 std::string Lesson::hover(const Vec<2>& X) const {
-  if (current_ < 0 || !steps_[current_].fresh || !steps_[current_].hover) return "";
-  return steps_[current_].hover(X);
+  if (current_ < 0 || !steps_[current_].fresh) return "";
+  if (steps_[current_].hover) return steps_[current_].hover(X);
+  return "x = " + rounded(X[0], 3) + ", y = " + rounded(X[1], 3);
 }
 
 }  // namespace sem

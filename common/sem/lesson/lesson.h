@@ -97,7 +97,7 @@ class Lesson {
   bool fresh(int step) const { return steps_[step].fresh; }
   /// Draws the current step with its title on a canvas and returns its view; the step is fresh.
   Picture draw(Canvas& canvas) const;
-  /// The current step's hover text at a world position; empty: none.
+  /// The current step's hover text at a world position; its coordinates if the step has none.
   std::string hover(const Vec<2>& X) const;
 
  private:
