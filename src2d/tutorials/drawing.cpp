@@ -205,4 +205,15 @@ void color_bar(Picture& picture, const Vec<2>& at, const std::string& lower,
   canvas.text({left + width + 8, at[1] + height / 2}, upper, style);
 }
 
+int nearest(const Points<2>& points, const Vec<2>& X) {
+  int k = 0;
+  (points.colwise() - X).colwise().squaredNorm().minCoeff(&k);
+  return k;
+}
+
+std::string value_near(const Points<2>& points, const Eigen::VectorXd& values, const Vec<2>& X,
+                       const std::string& name) {
+  return name + " = " + rounded(values[nearest(points, X)], 3);
+}
+
 }  // namespace sem::tutorial

@@ -67,6 +67,11 @@ void draw_weights(Picture& picture, const Cells& cells, const Eigen::MatrixXd& w
 void color_bar(Picture& picture, const Vec<2>& at, const std::string& lower,
                const std::string& upper);
 
+/// For hovering: the column of `points` closest to X, and "name = value" there.
+int nearest(const Points<2>& points, const Vec<2>& X);
+std::string value_near(const Points<2>& points, const Eigen::VectorXd& values, const Vec<2>& X,
+                       const std::string& name);
+
 /// A dot with its name.
 void draw_mark(Picture& picture, const Vec<2>& at, const std::string& name, const Color& color,
                const Vec<2>& offset = {12, -12});

@@ -95,7 +95,6 @@ double total(const std::vector<RayInterval>& intervals) {
 }
 
 const Stroke thick{.color = blue, .width = 3.5};
-
 void draw_ray(Picture& picture, const Boundary<2>& boundary, const Loops<2>& loops, int axis,
               double height, double width) {
   const auto at = [&](double t) { return axis == 0 ? Vec<2>(t, height) : Vec<2>(height, t); };
@@ -243,7 +242,8 @@ int main(int argc, char** argv) {
           picture.dot(quadrature.position.col(k), colors::viridis(quadrature.weight[k] / most));
         for (const auto& part : boundary.parts) picture.curve(polyline(part.nurbs), thick);
         color_bar(picture, {560, 560}, "v = 0", rounded(most, 2));
-      });
+      },
+      [&](const Vec<2>& X) { return value_near(quadrature.position, quadrature.weight, X, "v"); });
   return lesson.run(argc, argv);
 }
 // Next: step_03_least_squares, polynomials that follow the boundary.

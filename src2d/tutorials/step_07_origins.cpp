@@ -113,8 +113,8 @@ int main(int argc, char** argv) {
         draw_parts(picture, parts, "12345678");
         for (int g = 0; g < std::min(7, int(groups.size())); ++g)
           picture.label(groups[g].center, text(groups[g].parts), colors::black, {0, 0});
-      });
-
+      },
+      [&](auto& X) { return text(groups[of_point[nearest(body.quadrature.position, X)]].parts); });
   // [2] Every part takes the candidate with its largest score. The published min-cost flow, one
   // unit from each part to some candidate, says the same: candidates take any number of units. The
   // library skips sets with all samples on one line, {1 2}: a linear fit could not see across it.

@@ -168,8 +168,8 @@ int main(int argc, char** argv) {
         draw_parts(picture, three_curves(p0), "", 1);
         draw_parts(picture, three_curves(p), "ABC");
         color_bar(picture, picture.part({0.02, 0.02}, {1, 1}).lower, "Ψ / E = 0", rounded(most, 2));
-      });
-
+      },
+      [&](const Vec<2>& X) { return value_near(evaluate(body.interior, z), psi, X, "Ψ / E"); });
   // [4] (19): every point pulls at the control points that its row of B knows.
   VectorXd g;
   lesson.step(
