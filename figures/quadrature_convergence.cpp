@@ -1,15 +1,20 @@
-// Area and second moments by rays against the boundary integrals, for the paper's midpoints and for
-// Gauss rules.
+// Interior rules against the boundary integrals: error against number of points, for the paper's
+// midpoints, Gauss rays, split rays and fans.
 #include <cmath>
 
 #include "figures/blob.h"
 #include "sem/method/boundary_integrals.h"
+#include "sem/method/exact_rule.h"
+#include "sem/method/moment_rules.h"
 
 namespace sem::figures {
 namespace {
 
-const std::string bodies[] = {"disc", "annulus", "blob"};
-const char* const quantities[] = {"relative_error_of_area", "relative_error_of_second_moments"};
+const std::string bodies[] = {"disc", "annulus", "blob", "closed_curve"};
+const char* const titles[] = {"Disc", "Annulus", "Blob of three curves", "Closed B-spline"};
+enum Rule { midpoints, gauss, split, fan, n_rules };
+const char* const rules[] = {"midpoints on rays", "Gauss rays", "split rays", "exact (cheapest)"};
+constexpr int degree = 6;
 
 // Powers of sqrt(2): errors of single numbers of rays scatter.
 std::vector<int> ray_counts() {
@@ -18,31 +23,67 @@ std::vector<int> ray_counts() {
   return counts;
 }
 
-// Midpoints: half as many in each interval as there are rays; Gauss: 8, exact for these integrands.
-Moments<2> moments_by_rays(const Discretization<2>& d, int n, bool gauss) {
+// Midpoints: half as many in each interval as there are rays; Gauss: 12, exact to rounding here.
+Quadrature<2> rule_on_rays(const Discretization<2>& d, int n, bool by_gauss) {
   const auto rays =
-      cast_rays(d.boundary, d.loops, {0, n, gauss ? RayGrid::gauss : RayGrid::midpoint}, 2);
-  const IntervalOptions interval{gauss ? IntervalRule::gauss : IntervalRule::midpoint,
-                                 gauss ? 8 : (n + 1) / 2, 0};
-  const auto q = quadrature_on_rays(rays, interval);
-  return quadrature_moments(q.position, q.weight);
+      cast_rays(d.boundary, d.loops, {0, n, by_gauss ? RayGrid::gauss : RayGrid::midpoint}, 2);
+  const IntervalOptions interval{by_gauss ? IntervalRule::gauss : IntervalRule::midpoint,
+                                 by_gauss ? 12 : (n + 1) / 2, 0};
+  return quadrature_on_rays(rays, interval);
 }
 
+// Moments to degree 6 and integrals of waves, from the boundary.
+struct SmoothTruth {
+  Vec<2> center;
+  double size, wave_number, area = 0;
+  Eigen::VectorXd moments;
+  Vec<2> waves = Vec<2>::Zero();  // of cos(k x), cos(k y)
+
+  explicit SmoothTruth(const Discretization<2>& d) {
+    const Box<2>& box = d.boundary.box;
+    center = (box.lower + box.upper) / 2;
+    size = (box.upper - box.lower).maxCoeff();
+    wave_number = 4 * M_PI / size;
+    moments = boundary_moments_to_degree(d.boundary, d.loops, degree, center, size).value();
+    area = moments[0];
+    visit_boundary_flux<2>(d.boundary, d.loops, [&](const Vec<2>& X, double flux) {
+      waves[0] += flux * std::sin(wave_number * X[0]) / wave_number;
+      waves[1] += flux * X[0] * std::cos(wave_number * X[1]);
+    });
+  }
+
+  // Largest error, relative to the integral of the magnitude (waves: to the area).
+  double error(const Quadrature<2>& q) const {
+    double worst = moment_error(q, degree, center, size, moments);
+    for (int a = 0; a < 2; ++a) {
+      const double found = q.weight.dot((wave_number * q.position.row(a).array()).cos().matrix());
+      worst = std::max(worst, std::abs(found - waves[a]) / area);
+    }
+    return worst;
+  }
+};
+
 // Not below what a logarithmic axis shows.
-double shown(double error) { return std::max(error, 1e-16); }
+double shown(double error) { return std::max(error, 1e-15); }
 
 Data compute() {
   Data data;
-  auto& errors = data.add("errors", {"body", "gauss", "rays", quantities[0], quantities[1]});
-  for (int body = 0; body < 3; ++body) {
+  auto& errors = data.add("errors", {"body", "rule", "setting", "points", "relative_error_of_area",
+                                     "relative_error_of_smooth_integrals"});
+  for (int body = 0; body < 4; ++body) {
     const auto d = builtin_body(bodies[body]);
-    const auto truth = boundary_moments(d.boundary, d.loops);
-    for (const int gauss : {0, 1})
-      for (const int n : ray_counts()) {
-        const auto found = moments_by_rays(d, n, gauss);
-        errors.add({double(body), double(gauss), double(n),
-                    shown(std::abs(found.volume / truth.volume - 1)),
-                    shown((found.second - truth.second).norm() / truth.second.norm())});
+    const SmoothTruth truth(d);
+    const auto add = [&](Rule rule, double setting, const Quadrature<2>& q) {
+      errors.add({double(body), double(rule), setting, double(q.size()),
+                  shown(std::abs(q.weight.sum() / truth.area - 1)), shown(truth.error(q))});
+    };
+    for (const Rule rule : {midpoints, gauss})
+      for (const int n : ray_counts()) add(rule, n, rule_on_rays(d, n, rule == gauss));
+    for (const Rule rule : {split, fan})
+      for (int k = 2; k <= 12; k += 2) {
+        const InteriorOptions options{
+            rule == split ? InteriorRule::split_rays : InteriorRule::exact, std::pow(10, -k)};
+        add(rule, options.tolerance, exact_rule(d.boundary, d.loops, options).quadrature);
       }
   }
   return data;
@@ -50,27 +91,29 @@ Data compute() {
 
 void draw(Plot& plot, const Data& data) {
   plot.shared_legend = true;
-  const char* const rules[] = {"midpoints", "Gauss"};
-  const char* const titles[] = {"Area", "Second moments"};
-  for (int q = 0; q < 2; ++q) {
-    Panel& panel = plot.panel(0, q);
-    panel.title = titles[q];
-    panel.x = {.label = "number of rays", .logarithmic = true};
-    panel.y = {.label = q == 0 ? "relative error" : "",
-               .lower = 1e-10,
+  for (int body = 0; body < 4; ++body) {
+    const int row = body / 2, column = body % 2;
+    Panel& panel = plot.panel(row, column);
+    panel.title = titles[body];
+    panel.x = {.label = row == 1 ? "number of points" : "",
+               .lower = 10,
+               .upper = 1e6,
+               .logarithmic = true,
+               .tick_labels = row == 1};
+    panel.y = {.label = column == 0 ? "largest relative error" : "",
+               .lower = 1e-14,
                .upper = 1,
                .logarithmic = true,
-               .tick_labels = q == 0};
-    for (int body = 0; body < 3; ++body)
-      for (const int gauss : {0, 1}) {
-        const DataTable line = data["errors"].where("body", body).where("gauss", gauss);
-        Series style = series(body, bodies[body] + ", " + rules[gauss]);
-        style.dash = gauss ? std::vector<double>{} : std::vector<double>{3, 2};
-        style.marker_size = 3;
-        panel.curve(line["rays"], line[quantities[q]], style);
-      }
-    panel.slope(-1.5, 100, 400, 2e-2);
-    panel.slope(-3, 8, 28, 2e-6);
+               .tick_labels = column == 0};
+    for (int rule = 0; rule < n_rules; ++rule) {
+      const DataTable line = data["errors"].where("body", body).where("rule", rule);
+      Series style = series(rule, rules[rule]);
+      style.dash =
+          rule == midpoints || rule == fan ? std::vector<double>{3, 2} : std::vector<double>{};
+      style.marker_size = rule == split ? 5 : 3;  // seen below the cheapest, often the same
+      panel.curve(line["points"], line["relative_error_of_smooth_integrals"], style);
+    }
+    panel.slope(-0.75, 3e4, 2e5, 1e-5);
   }
 }
 
@@ -79,11 +122,13 @@ void draw(Plot& plot, const Data& data) {
 Figure quadrature_convergence() {
   return {
       "quadrature_convergence",
-      "Area and second moments by rays against the boundary integrals: midpoints are of order 3/2; "
-      "Gauss rays are of order 3 where the length of a ray is smooth between its ends, and no "
-      "better than midpoints where it has kinks, as at a hole or a dent",
+      "Interior rules: the largest relative error of all moments to degree 6 and of waves half as "
+      "long as the body, against the boundary integrals. Midpoints on rays (the paper's) are of "
+      "order 3/2 in the number of rays. Rays split where the boundary turns back, has joints or "
+      "knots, and fans about an ellipse where they are cheaper, reach 1e-10 with some hundred "
+      "points of positive weight, all inside",
       7,
-      3,
+      5,
       compute,
       draw};
 }

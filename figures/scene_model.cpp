@@ -43,7 +43,7 @@ void use_exact_gradient(Model<2>& model) {
   const auto distances =
       measure_distances(d.boundary, d.loops, X, options.variant, options.cutoff, 2);
   auto theta = distance_weights(distances, options);
-  distance_weight_gradients(d.boundary, X, distances, options.variant, theta);
+  distance_weight_gradients(d.boundary, X, distances, theta);
   d.weights = blending_weights(theta, d.boundary, X);
   d.interior = blended_map(X, d.weights, d.origins, d.projection, d.unknowns.size(), true, 2);
   model.energy =

@@ -8,6 +8,7 @@
 #include "sem/method/monomials.h"
 #include "sem/nurbs/basis.h"
 #include "src2d/shapes/shapes.h"
+#include "src2d/tutorials/drawing.h"
 #include "src2d/tutorials/matrices.h"
 
 namespace sem::tutorial {
@@ -241,6 +242,13 @@ void draw_answer(Picture& picture, const Beam& beam, const Answer& answer, const
       picture.canvas().stroke(loop, {.color = color, .width = 3, .closed = true});
   }
   picture.canvas().pop_clip();
+  const bool holds = answer.holds[load];
+  const Points<2> truth = reference.u[load];
+  const Points<2> shown = beam.X + scale * (holds ? answer.u[load] : truth);
+  picture.hover(shown, [=, name = answer.name, u = answer.u[load]](int i) {
+    const std::string own = holds ? coordinates(u.col(i)) + " m" : "no answer";
+    return name + ": u = " + own + "\nreference: " + coordinates(truth.col(i)) + " m";
+  });
 }
 
 }  // namespace
@@ -267,6 +275,8 @@ void draw_answers(Picture& picture, const Beam& beam, const Answer& answer, cons
 void draw_table(Picture& picture, const Beam& beam, const std::vector<Answer>& answers,
                 const Answer& reference) {
   Canvas& canvas = picture.canvas();
+  canvas.text(picture.part({0, 0.05}, {1, 1}).lower + Vec<2>(14, 0), "work of the load",
+              {.size = 15});
   for (int i = 0; i < int(answers.size()); ++i) {
     const Color color = colors::categorical(i);
     for (int load = 0; load < n_loads; ++load) {

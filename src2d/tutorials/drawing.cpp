@@ -73,6 +73,12 @@ void draw_parts(Picture& picture, const Curves& parts, const std::string& names,
     stroke.cap = Stroke::Cap::round;
     picture.curve(polyline(parts[i]), stroke);
     if (i >= int(names.size())) continue;
+    const Points<2> points = polyline(parts[i], 100);
+    picture.hover(
+        [points, name = names.substr(i, 1), reach = 8 / picture.view().scale()](const Vec<2>& X) {
+          const int k = nearest(points, X);
+          return (points.col(k) - X).norm() < reach ? name + ", u = " + rounded(k / 100.0, 2) : "";
+        });
     const Points<2> near = polyline(parts[i], 40).middleCols(19, 3);
     Vec<2> out = DimTraits<2>::area_normal(near.col(2) - near.col(0)).normalized();
     if (out.dot(near.col(1) - middle) < 0) out = -out;
@@ -163,6 +169,12 @@ void draw_cells(Picture& picture, const Cells& cells, const std::function<Color(
   picture.canvas().fill(outside, colors::white);
 }
 
+void draw_field(Picture& picture, const Cells& cells, const Eigen::VectorXd& values,
+                const std::string& label) {
+  draw_cells(picture, cells, [&](int k) { return colors::viridis(values[k]); });
+  read_values(picture, cells.center, values, label);
+}
+
 void draw_weights(Picture& picture, const Cells& cells, const Eigen::MatrixXd& w,
                   const std::vector<int>& pale) {
   draw_cells(picture, cells, [&](int k) {
@@ -174,6 +186,28 @@ void draw_weights(Picture& picture, const Cells& cells, const Eigen::MatrixXd& w
     const bool listed = std::binary_search(pale.begin(), pale.end(), k);
     return colors::mix(mixed, colors::white, listed ? 0.75 : 0.0);
   });
+  picture.hover(cells.center, [=](int k) {
+    const bool listed = std::binary_search(pale.begin(), pale.end(), k);
+    return "w = " + list(w.row(k).transpose(), 3) + (listed ? ", uncovered" : "");
+  });
+}
+
+void draw_outline(Picture& picture, const Points<2>& outline, const Color& color,
+                  const Points<2>& other, const std::string& label) {
+  picture.curve(outline, {.color = color, .width = 4});
+  if (other.cols() == outline.cols())
+    read_values(picture, outline, (outline - other).colwise().norm(), label);
+}
+
+void draw_influence(Picture& picture, const Vec<2>& X, const Points<2>& points,
+                    const Eigen::VectorXd& values, const std::string& symbol) {
+  for (int j = 0; j < points.cols(); ++j) {
+    const Color color = (values[j] > 0 ? blue : red).with_alpha(0.7);
+    picture.line(X, points.col(j), {.color = color, .width = 1 + 30 * std::abs(values[j])});
+    picture.dot(points.col(j), colors::gray, 10);
+  }
+  picture.dot(X, colors::black, 13);
+  read_values(picture, points, values, symbol);
 }
 
 void draw_mark(Picture& picture, const Vec<2>& at, const std::string& name, const Color& color,
@@ -192,8 +226,9 @@ void draw_measure(Picture& picture, const Vec<2>& a, const Vec<2>& b, const std:
   picture.label((a + b) / 2, text, color, offset, 20);
 }
 
-void color_bar(Picture& picture, const Vec<2>& at, const std::string& lower,
-               const std::string& upper) {
+void color_bar(Picture& picture, const std::string& lower, const std::string& upper,
+               const std::optional<Vec<2>>& place) {
+  const Vec<2> at = place.value_or(picture.part({0.02, 0.02}, {1, 1}).lower);
   constexpr double width = 150, height = 16, size = Picture::text_size;
   Canvas& canvas = picture.canvas();
   const double left = at[0] + canvas.text_width(lower, size) + 8;
@@ -205,15 +240,31 @@ void color_bar(Picture& picture, const Vec<2>& at, const std::string& lower,
   canvas.text({left + width + 8, at[1] + height / 2}, upper, style);
 }
 
+std::string coordinates(const Vec<2>& X) { return "(" + list(X, 3) + ")"; }
+
 int nearest(const Points<2>& points, const Vec<2>& X) {
   int k = 0;
   (points.colwise() - X).colwise().squaredNorm().minCoeff(&k);
   return k;
 }
 
-std::string value_near(const Points<2>& points, const Eigen::VectorXd& values, const Vec<2>& X,
-                       const std::string& name) {
-  return name + " = " + rounded(values[nearest(points, X)], 3);
+std::string reading(const std::string& label, double value) {
+  const auto comma = label.rfind(", ");
+  const std::string unit = comma == std::string::npos ? "" : " " + label.substr(comma + 2);
+  return label.substr(0, comma) + " = " + rounded(value, 4) + unit;
+}
+
+void read_values(Picture& picture, const Points<2>& points, const Eigen::VectorXd& values,
+                 const std::string& label) {
+  picture.hover(points, [=](int k) { return reading(label, values[k]); });
+}
+
+void read_motion(Picture& picture, const Points<2>& X, const Points<2>& x) {
+  picture.hover(x, [=](int k) {
+    const Vec<2> u = x.col(k) - X.col(k);
+    return "X = " + coordinates(X.col(k)) + "\nx = " + coordinates(x.col(k)) + "\nmoved by " +
+           rounded(u.norm(), 3) + " m";
+  });
 }
 
 }  // namespace sem::tutorial

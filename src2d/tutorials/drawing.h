@@ -3,6 +3,7 @@
 // inside, marks. Nothing of the method is computed here.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,8 @@ Points<2> pulled_points();
 
 /// Points along a curve, 2 by n + 1.
 Points<2> polyline(const Nurbs<1, 2>& curve, int n = 60);
-/// Draws the curves in the colours of part_color and, unless empty, one name beside each.
+/// Draws the curves in the colours of part_color and, unless empty, one name beside each; then the
+/// mouse reads name and u on a curve.
 void draw_parts(Picture& picture, const Curves& parts, const std::string& names = "",
                 double width = 4);
 /// A = blue, B = red, C = green, ...
@@ -60,18 +62,34 @@ struct Cells {
 Cells cells_inside(const Boundary<2>& boundary, const Loops<2>& loops, int n);
 /// Colours the cells, cut off at the outline if it is known.
 void draw_cells(Picture& picture, const Cells& cells, const std::function<Color(int cell)>& color);
-/// The colours of the parts, mixed by the weights w (#cells by #parts); pale where listed.
+/// Colours from 0 to 1 by viridis; the mouse reads the values.
+void draw_field(Picture& picture, const Cells& cells, const Eigen::VectorXd& values,
+                const std::string& label);
+/// The colours of the parts, mixed by the weights w (#cells by #parts); pale where listed. The
+/// mouse reads w.
 void draw_weights(Picture& picture, const Cells& cells, const Eigen::MatrixXd& w,
                   const std::vector<int>& pale = {});
-/// A bar of viridis from 0 to 1 between two texts at a place in pixels.
-void color_bar(Picture& picture, const Vec<2>& at, const std::string& lower,
-               const std::string& upper);
+/// A bar of viridis from 0 to 1 between two texts at a place in pixels, else in the upper left.
+void color_bar(Picture& picture, const std::string& lower, const std::string& upper,
+               const std::optional<Vec<2>>& place = {});
 
-/// For hovering: the column of `points` closest to X, and "name = value" there.
-int nearest(const Points<2>& points, const Vec<2>& X);
-std::string value_near(const Points<2>& points, const Eigen::VectorXd& values, const Vec<2>& X,
-                       const std::string& name);
+/// "(1.2, 3)", for hovering.
+std::string coordinates(const Vec<2>& X);
+int nearest(const Points<2>& points, const Vec<2>& X);  ///< column
+/// "time = 0.5 s" from "time, s" and 0.5.
+std::string reading(const std::string& label, double value);
+/// The mouse reads the label and the value of the nearest of some points.
+void read_values(Picture& picture, const Points<2>& points, const Eigen::VectorXd& values,
+                 const std::string& label);
+/// Of points that moved from X to x (both 2 by #points) it reads both.
+void read_motion(Picture& picture, const Points<2>& X, const Points<2>& x);
 
+/// An outline; the mouse reads, with a label, how far its points are from those of another one.
+void draw_outline(Picture& picture, const Points<2>& outline, const Color& color,
+                  const Points<2>& other = {}, const std::string& label = "");
+/// Lines from X to points, as wide as their values, blue > 0, red < 0; the mouse reads the values.
+void draw_influence(Picture& picture, const Vec<2>& X, const Points<2>& points,
+                    const Eigen::VectorXd& values, const std::string& symbol);
 /// A dot with its name.
 void draw_mark(Picture& picture, const Vec<2>& at, const std::string& name, const Color& color,
                const Vec<2>& offset = {12, -12});

@@ -1,8 +1,10 @@
 #pragma once
-// The solid of steps 10 and 11: all that earlier steps taught, in one call each.
+// The solid of steps 10 and 11: all that earlier steps taught, in one call each, and its pictures.
 
 #include <memory>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "sem/mechanics/internal_energy.h"
@@ -10,6 +12,7 @@
 #include "sem/method/discretization.h"
 #include "sem/solve/integrators.h"
 #include "sem/solve/system.h"
+#include "src2d/tutorials/drawing.h"
 
 namespace sem::tutorial {
 
@@ -66,5 +69,33 @@ const std::string scheme_names[] = {"linearly implicit Euler", "implicit Euler",
                                     "implicit midpoint"};
 /// The largest |value - first value| of a run, by the scale or else by the first value: for output.
 std::string change(const std::vector<double>& values, double scale = 0);
+
+// Pictures; the mouse reads their values, of bodies how far points of the inside moved.
+
+/// States of a body, the first thin, with their names in a legend.
+void draw_states(Picture& picture, const Discretization<2>& body,
+                 const std::vector<std::tuple<std::string, Color, Eigen::VectorXd>>& states);
+/// A scalar mass matrix as cells, and its row sums as dots at the control points.
+void draw_mass(Picture& picture, const Discretization<2>& body, const Eigen::MatrixXd& M);
+/// Side by side, the last in blue: where a hung body's curves and points ended.
+void draw_hung(Picture& picture, const Discretization<2>& body,
+               const std::vector<std::pair<std::string, Eigen::VectorXd>>& ends);
+
+/// Several states of a body, the first dark, the last light, with the last one's time, s.
+void draw_motion(Picture& picture, const Discretization<2>& body,
+                 const std::vector<Eigen::VectorXd>& z, double time);
+
+/// On the right, a displacement of z from rest: the boundary in red, points inside as blue arrows.
+void draw_displacement(Picture& picture, const Discretization<2>& body, const Eigen::VectorXd& u);
+
+/// The body at rest and its control points with a force (entries as z's, N) each, `scale` m per N;
+/// entries that are not `free` are marked as pinned.
+void draw_vectors(Picture& picture, const Discretization<2>& body, const Eigen::VectorXd& vectors,
+                  double scale, const std::vector<int>& free);
+
+/// Springs between two sets of the boundary samples, red where `energy` is large; `map` in blue,
+/// `curve` in gray.
+void draw_springs(Picture& picture, const Samples<2>& samples, const Points<2>& map,
+                  const Points<2>& curve, const Eigen::VectorXd& energy);
 
 }  // namespace sem::tutorial

@@ -1,5 +1,7 @@
 #include "src2d/tutorials/mesh.h"
 
+#include <algorithm>
+
 #include "sem/nurbs/basis.h"
 
 namespace sem::tutorial {
@@ -26,6 +28,21 @@ Mesh ring_mesh(const Curves& curves, const Vec<2>& middle, int rings) {
 void draw_mesh(Picture& picture, const Mesh& mesh, const Points<2>& x, const Color& color) {
   for (const auto& e : mesh.element)
     picture.curve(x(Eigen::all, e), {.color = color, .width = 1.5, .closed = true});
+}
+
+void read_elements(Picture& picture, const Mesh& mesh, const Points<2>& x,
+                   const std::function<std::string(int)>& text) {
+  picture.hover([=, elements = mesh.element](const Vec<2>& X) -> std::string {
+    for (int e = 0; e < int(elements.size()); ++e) {
+      double least = 1;
+      for (int a = 0; a < 3; ++a) {
+        const Vec<2> from = x.col(elements[e][a]), to = x.col(elements[e][(a + 1) % 3]);
+        least = std::min(least, DimTraits<2>::cross(to - from, X - from)[0]);
+      }
+      if (least >= 0) return text(e);
+    }
+    return "";
+  });
 }
 
 }  // namespace sem::tutorial

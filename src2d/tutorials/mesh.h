@@ -2,6 +2,8 @@
 // A triangle mesh for tutorials on finite elements.
 
 #include <array>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "src2d/tutorials/drawing.h"
@@ -20,5 +22,9 @@ Mesh ring_mesh(const Curves& curves, const Vec<2>& middle, int rings);
 
 /// The edges with the nodes at x.
 void draw_mesh(Picture& picture, const Mesh& mesh, const Points<2>& x, const Color& color);
+
+/// The mouse reads a text of the element that it is in, with the nodes at x.
+void read_elements(Picture& picture, const Mesh& mesh, const Points<2>& x,
+                   const std::function<std::string(int element)>& text);
 
 }  // namespace sem::tutorial

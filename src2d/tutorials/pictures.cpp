@@ -3,27 +3,52 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sem/draw/image.h"
 #include "sem/lesson/numbers.h"
+#include "sem/lesson/part_canvas.h"
+#include "src2d/picture/frame.h"
 #include "src2d/picture/outline.h"
+#include "src2d/picture/scales.h"
 #include "src2d/tutorials/plots.h"
 
 namespace sem::tutorial {
-namespace {
 
-const Color pale = colors::light_gray.with_alpha(0.5);  // inside of a body at rest
-
-// The body for unknowns z: outlines of its regions, filled.
-void draw_body(Picture& picture, const Discretization<2>& body, const Eigen::VectorXd& z,
-               const Color& line, const Color& fill, double width = 2.5) {
-  for (auto region : Outline(body).regions(control_points(body.unknowns, z))) {
-    for (auto& loop : region.loops) loop = picture.view().map(loop);
-    picture.canvas().fill(region.loops, fill);
-    for (const auto& loop : region.loops)
-      picture.canvas().stroke(loop, {.color = line, .width = width, .closed = true});
-  }
+void draw_boundary(Picture& picture, const Boundary<2>& boundary) {
+  for (const auto& part : boundary.parts)
+    picture.curve(polyline(part.nurbs), {.color = blue, .width = 3.5});
 }
 
-}  // namespace
+void draw_ray(Picture& picture, const Box<2>& box, int axis, double height,
+              const std::vector<RayHit>& hits, const std::vector<RayInterval>& inside,
+              double width) {
+  const auto at = [&](double t) { return axis == 0 ? Vec<2>(t, height) : Vec<2>(height, t); };
+  picture.line(at(box.lower[axis]), at(box.upper[axis]),
+               {.color = hits.empty() ? red : colors::gray, .dash = {6, 5}});
+  for (const auto& i : inside)
+    picture.line(at(i.begin), at(i.end), {.color = green, .width = width});
+  for (const auto& h : hits)
+    picture.dot(at(h.t), colors::black, 6 + width,
+                h.crosses ? MarkerShape::circle : MarkerShape::cross);
+}
+
+void draw_function(Picture& picture, const Box<2>& square, const std::string& name, bool pale,
+                   const std::function<double(const Vec<2>&)>& f) {
+  constexpr int n = 60;
+  Image image(n, n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const Color color = colors::diverging(0.5 + f(Vec<2>(2 * i + 1 - n, n - 2 * j - 1) / n) / 2);
+      image.set(i, j, pale ? colors::mix(colors::white, color, 0.15) : color);
+    }
+  picture.canvas().image(image, square);
+  picture.canvas().text(square.lower - Vec<2>(0, 7), name,
+                        {.size = 18, .color = pale ? colors::gray : colors::black});
+  picture.hover(square, [=](const Vec<2>& pixel) {
+    const Vec<2> half = (square.upper - square.lower) / 2, d = pixel - square.lower - half,
+                 X = d.cwiseQuotient(Vec<2>(half[0], -half[1]));
+    return name + " = " + rounded(f(X), 3) + " at " + coordinates(X);
+  });
+}
 
 void draw_construction(Picture& picture, const Curves& parts, int i, const Vec<2>& foot,
                        const Vec<2>& X, double d2) {
@@ -42,16 +67,20 @@ void draw_construction(Picture& picture, const Curves& parts, int i, const Vec<2
 void draw_profiles(Picture& picture, const Eigen::VectorXd& at,
                    const std::vector<Eigen::MatrixXd>& variants, const std::vector<int>& parts,
                    const std::vector<std::string>& names, double X) {
+  std::vector<Trace> curves;
+  const auto content = [&](Panel& panel) {
+    for (int v = 0; v < int(variants.size()); ++v)
+      for (const int j : parts)
+        if (j >= 0) {
+          curves.push_back(
+              {std::string(1, "ABC"[j]) + ", " + names[v], column(at, 0), column(variants[v], j)});
+          panel.curve(curves.back().x, curves.back().y,
+                      line(curves.back().label, part_color(j), v));
+        }
+    panel.vertical(X, "X");
+  };
   draw_panel(picture, {.label = "distance from X* along the ray, m"},
-             {.label = "θ", .lower = 0, .upper = 1}, [&](Panel& panel) {
-               for (int v = 0; v < int(variants.size()); ++v)
-                 for (const int j : parts)
-                   if (j >= 0)
-                     panel.curve(
-                         column(at, 0), column(variants[v], j),
-                         line(std::string(1, "ABC"[j]) + ", " + names[v], part_color(j), v));
-               panel.vertical(X, "X");
-             });
+             {.label = "θ", .lower = 0, .upper = 1}, content, curves);
 }
 
 void draw_fields(Picture& picture, const Cells& cells, const Curves& parts,
@@ -66,7 +95,8 @@ void draw_fields(Picture& picture, const Cells& cells, const Curves& parts,
       const double left = 0.2 + double(j) * width;
       picture.set_view(
           cells.box, picture.part({left, top + 0.01}, {left + width - 0.02, top + height - 0.015}));
-      draw_cells(picture, cells, [&](int k) { return colors::viridis(field(k, Eigen::Index(j))); });
+      draw_field(picture, cells, field.col(Eigen::Index(j)),
+                 rows[v].first + "\n" + symbol + " of " + "ABC"[j]);
       for (std::size_t other = 0; other < parts.size(); ++other)
         picture.curve(polyline(parts[other]),
                       {.color = other == j ? part_color(int(j)) : colors::gray,
@@ -75,12 +105,11 @@ void draw_fields(Picture& picture, const Cells& cells, const Curves& parts,
     picture.canvas().text(picture.part({0.015, top + height / 2}, {1, 1}).lower, rows[v].first,
                           {.size = 19, .vertical = TextStyle::Vertical::middle});
   }
-  color_bar(picture, picture.part({0.015, 0.95}, {1, 1}).lower, symbol + " = 0", "1");
+  color_bar(picture, symbol + " = 0", "1", picture.part({0.015, 0.95}, {1, 1}).lower);
 }
 
 void draw_triangle(Picture& picture, const Curves& parts, const Box<2>& world, const Vec<2>& X,
-                   const Eigen::Vector3d& w,
-                   const std::function<double(const Eigen::Vector3d&)>& value) {
+                   const Eigen::Vector3d& w, const TriangleValue& value) {
   constexpr int n = 64;
   const auto place = [](const Eigen::Vector3d& v) {
     return Vec<2>(v[1] + v[2] / 2, v[2] * std::sqrt(0.75));
@@ -96,7 +125,7 @@ void draw_triangle(Picture& picture, const Curves& parts, const Box<2>& world, c
                                      corner(b + down, c + down)};
         Points<2> points(2, 3);
         for (int k = 0; k < 3; ++k) points.col(k) = place(v[k]);
-        picture.fill(points, colors::viridis(value((v[0] + v[1] + v[2]) / 3)));
+        picture.fill(points, colors::viridis(value((v[0] + v[1] + v[2]) / 3).first));
       }
   for (int j = 0; j < 3; ++j) {
     const std::string name(1, "ABC"[j]);
@@ -104,6 +133,11 @@ void draw_triangle(Picture& picture, const Curves& parts, const Box<2>& world, c
                   {0, j < 2 ? 20. : -20.}, 20);
     picture.note("w of " + name + " = " + rounded(w[j], 3), 1 + j, part_color(j));
   }
+  picture.hover([value](const Vec<2>& at) -> std::string {
+    const double c = at[1] / std::sqrt(0.75), b = at[0] - c / 2;
+    const Eigen::Vector3d v(1 - b - c, b, c);
+    return v.minCoeff() < 0 ? "" : "w = " + list(v, 2) + "\n" + value(v).second;
+  });
   picture.dot(place(w), colors::white, 22);
   picture.dot(place(w), part_color(1), 15);
   picture.set_view(world, picture.part({0, 0.5}, {0.36, 1}));
@@ -126,8 +160,8 @@ void draw_network(Picture& picture, const Eigen::MatrixXd& score,
       shown.push_back(c);
   const int n_left = int(score.rows()), n_right = int(shown.size());
   picture.set_view({{0, 0}, {1.6, 1}}, picture.area());
-  const auto left = [&](int i) { return Vec<2>(0.3, 0.95 - 0.9 * i / std::max(1, n_left - 1)); };
-  const auto right = [&](int r) { return Vec<2>(1.1, 0.95 - 0.9 * r / std::max(1, n_right - 1)); };
+  const auto left = [=](int i) { return Vec<2>(0.3, 0.95 - 0.9 * i / std::max(1, n_left - 1)); };
+  const auto right = [=](int r) { return Vec<2>(1.1, 0.95 - 0.9 * r / std::max(1, n_right - 1)); };
   for (const bool front : {false, true})
     for (int i = 0; i < n_left; ++i)
       for (int r = 0; r < n_right; ++r) {
@@ -136,6 +170,20 @@ void draw_network(Picture& picture, const Eigen::MatrixXd& score,
         const Color color = front ? part_color(i) : colors::light_gray;
         picture.line(left(i), right(r), {.color = color, .width = width});
       }
+  picture.hover([=, names = candidates](const Vec<2>& at) {  // the line that is nearest there
+    double least = 0.03;
+    std::string text;
+    for (int i = 0; i < n_left; ++i)
+      for (int r = 0; r < n_right; ++r) {
+        const double s = std::clamp((at[0] - 0.3) / 0.8, 0.0, 1.0);
+        const double distance = (left(i) + s * (right(r) - left(i)) - at).norm();
+        if (!(score(i, shown[r]) > 0) || distance > least) continue;
+        least = distance;
+        text = "part " + std::to_string(i + 1) + ", " + names[shown[r]] + "\nscore " +
+               rounded(score(i, shown[r]), 3) + " m²" + (taken[i] == shown[r] ? ", taken" : "");
+      }
+    return text;
+  });
   for (int i = 0; i < n_left; ++i)
     draw_mark(picture, left(i), "part " + std::to_string(i + 1), part_color(i), {-14, 0});
   for (int r = 0; r < n_right; ++r) {
@@ -145,16 +193,26 @@ void draw_network(Picture& picture, const Eigen::MatrixXd& score,
   }
 }
 
-void draw_origins(Picture& picture, const Curves& parts, const std::vector<int>& of_part,
-                  const Points<2>& position, const std::vector<std::string>& names) {
+std::string text(const std::vector<int>& set) {
+  std::string list;
+  for (const int i : set) list += (list.empty() ? "" : " ") + std::to_string(i + 1);
+  return "{" + list + "}";
+}
+
+void draw_origins(Picture& picture, const Curves& parts, const Origins<2>& origins) {
   draw_parts(picture, parts, "12345678");
-  for (int o = 0; o < position.cols(); ++o) {
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      if (of_part[i] == o)
-        picture.line(position.col(o), polyline(parts[i], 2).col(1),
-                     {.color = part_color(int(i)), .width = 3});
-    draw_mark(picture, position.col(o), names[o], colors::black, {0, -18});
+  std::vector<std::string> names;
+  for (int o = 0; o < origins.position.cols(); ++o) {
+    const Vec<2> at = origins.position.col(o);
+    names.push_back(text(origins.members[o]) + " at " + coordinates(at) + "\norigin of");
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (origins.of_part[i] != o) continue;
+      picture.line(at, polyline(parts[i], 2).col(1), {.color = part_color(int(i)), .width = 3});
+      names.back() += " " + std::to_string(i + 1);
+    }
+    draw_mark(picture, at, text(origins.members[o]), colors::black, {0, -18});
   }
+  picture.hover(origins.position, [=](int o) { return names[o]; });
 }
 
 void draw_shares(Picture& picture, const std::vector<Eigen::MatrixXd>& matrices,
@@ -177,15 +235,19 @@ void draw_shares(Picture& picture, const std::vector<Eigen::MatrixXd>& matrices,
       }
     }
     picture.label({n / 2.0, 0}, names[k], colors::black, {0, 24}, 20);
+    const Vec<2> a = picture.view().map(Vec<2>(0, n)), b = picture.view().map(Vec<2>(n, 0));
+    read_matrix(picture, m, {a, b}, "share");
   }
 }
 
 void draw_squares(Picture& picture, const Cells& cells, const Points<2>& moved, double size) {
+  const double dot = std::max(6.0, 0.9 * cells.size * picture.view().scale());  // pixels
   for (int k = 0; k < moved.cols(); ++k) {
     const Vec<2> at = cells.center.col(k) / size;
     const bool light = (int(std::floor(at[0])) + int(std::floor(at[1]))) % 2 == 0;
-    picture.dot(moved.col(k), light ? colors::light_gray : colors::gray, 6, MarkerShape::square);
+    picture.dot(moved.col(k), light ? colors::light_gray : colors::gray, dot, MarkerShape::square);
   }
+  read_motion(picture, cells.center, moved);
 }
 
 void draw_opinions(Picture& picture, const Points<2>& p, const Eigen::RowVectorXd& Gamma,
@@ -199,6 +261,12 @@ void draw_opinions(Picture& picture, const Points<2>& p, const Eigen::RowVectorX
     picture.line(x, p.col(k), {.color = color.with_alpha(0.5), .width = width});
     draw_mark(picture, p.col(k), rounded(of_point[k], 2), color);
   }
+  picture.hover([=](const Vec<2>& at) {
+    const int k = nearest(p, at);
+    return (p.col(k) - at).norm() > 0.2
+               ? ""
+               : "p" + std::to_string(k + 1) + ": Γ = " + rounded(of_point[k], 3);
+  });
   const Vec<2> beside[] = {{-12, -12}, {12, -12}, {12, 12}};
   for (int i = 0; i < 3; ++i)
     draw_mark(picture, opinions.col(i), std::string(1, "ABC"[i]), part_color(i), beside[i]);
@@ -216,9 +284,12 @@ void draw_forces(Picture& picture, const Points<2>& p, const Points<2>& forces) 
   const double scale = 1.2 / std::max(forces.cwiseAbs().maxCoeff(), 1e-12);
   for (int k = 0; k < 9; ++k) {
     picture.dot(p.col(k), colors::gray, 10);
-    picture.arrow(p.col(k), scale * sum.col(k), red, 3);
+    picture.arrow(p.col(k), scale * sum.col(k), colors::black, 3);
   }
   picture.note("forces −dV/dp on the control points");
+  picture.hover(p, [=](int k) {
+    return "force on p" + std::to_string(k + 1) + ": " + coordinates(sum.col(k));
+  });
 }
 
 void draw_walks(Picture& picture, const Points<2>& image, const Points<2>& diffuse,
@@ -229,6 +300,13 @@ void draw_walks(Picture& picture, const Points<2>& image, const Points<2>& diffu
   picture.curve(image, {.color = colors::light_gray, .width = 10});
   picture.curve(exact, {.color = part_color(0), .width = 3});
   picture.curve(diffuse, {.color = part_color(1), .width = 4});
+  picture.hover(diffuse, [=](int k) {
+    const auto off = [&](const Points<2>& walk) {
+      return rounded((walk.col(k) - image.col(k)).norm(), 2) + " m";
+    };
+    return rounded(100.0 * k / double(image.cols() - 1), 3) + " % of the way\n(12) is off by " +
+           off(diffuse) + "\n(12') is off by " + off(exact);
+  });
   draw_mark(picture, image.col(0), "start", colors::black, {-14, 12});
   draw_mark(picture, diffuse.rightCols(1), "end by (12)", part_color(1), {14, -8});
   picture.legend({{"image of the circle", colors::light_gray},
@@ -237,96 +315,13 @@ void draw_walks(Picture& picture, const Points<2>& image, const Points<2>& diffu
                  Picture::Corner::lower_left);
 }
 
-void draw_motion(Picture& picture, const Discretization<2>& body,
-                 const std::vector<Eigen::VectorXd>& z, double time) {
-  constexpr int n = 6;
-  const auto color = [](int shot) { return colors::viridis(shot / (n + 0.5)); };
-  for (int shot = 0; shot <= n; ++shot)
-    draw_body(picture, body, z[shot * (z.size() - 1) / n], color(shot),
-              color(shot).with_alpha(0.12));
-  picture.legend({{"t = 0", color(0)}, {"t = " + rounded(time, 2) + " s", color(n)}},
-                 Picture::Corner::lower_right);
-}
-
-void draw_states(Picture& picture, const Discretization<2>& body,
-                 const std::vector<std::tuple<std::string, Color, Eigen::VectorXd>>& states) {
-  std::vector<Picture::Entry> entries;
-  for (const auto& [name, color, z] : states) {
-    const bool first = entries.empty();
-    draw_body(picture, body, z, color, color.with_alpha(first ? 0.2 : 0.05), first ? 1.5 : 2.5);
-    entries.push_back({name, color});
-  }
-  picture.legend(entries);
-}
-
-void draw_mass(Picture& picture, const Discretization<2>& body, const Eigen::MatrixXd& M) {
-  picture.note("M, part by part (red > 0, blue < 0), and the size of its row sums");
-  const Vec<2> corner = picture.part({0.03, 0.12}, {1, 1}).lower;
-  draw_matrix(picture, M, body.boundary.first_control, {corner, corner + Vec<2>(430, 430)});
-  picture.set_view({{-0.6, -0.7}, {2.9, 1.7}}, picture.part({0.54, 0.1}, {1, 0.9}));
-  draw_body(picture, body, body.unknowns.rest.reshaped(), colors::gray, pale);
-  const Eigen::VectorXd sum = M.rowwise().sum();
-  const Eigen::VectorXd size = 40 * (sum / sum.maxCoeff()).cwiseAbs().cwiseSqrt();
-  for (int i = 0; i < size.size(); ++i)
-    picture.dot(body.unknowns.rest.col(i), red.with_alpha(0.6), size[i]);
-}
-
-void draw_hung(Picture& picture, const Discretization<2>& body,
-               const std::vector<std::pair<std::string, Eigen::VectorXd>>& ends) {
-  const double n = double(ends.size());
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    const auto& [name, z] = ends[k];
-    picture.set_view({{-1.2, -2.6}, {3.2, 2.2}},
-                     picture.part({double(k) / n, 0.05}, {double(k + 1) / n, 1}));
-    draw_body(picture, body, body.unknowns.rest.reshaped(), colors::gray, pale, 1.5);
-    picture.canvas().push_clip(picture.view_area());
-    draw_body(picture, body, z, k + 1 == ends.size() ? blue : red, colors::white.with_alpha(0));
-    picture.canvas().pop_clip();
-    picture.dots(evaluate(body.interior, z), blue, 4);
-    picture.label({1, 2.0}, name, colors::black, {0, 0});
-  }
-  picture.note("curves J p (lines) and points x(X) (dots) after the last good step, at most 0.4 s");
-}
-
-void draw_displacement(Picture& picture, const Discretization<2>& body, const Eigen::VectorXd& u) {
-  const Eigen::VectorXd rest = body.unknowns.rest.reshaped();
-  picture.set_view({{-1, -0.9}, {3.1, 2.1}}, picture.part({0.57, 0.1}, {1, 0.95}));
-  picture.canvas().text(picture.part({0.58, 0.06}, {1, 1}).lower, "a soft motion: curve, points",
-                        {.size = Picture::text_size});
-  draw_body(picture, body, rest, colors::gray, pale);
-  draw_body(picture, body, rest + u, red, red.with_alpha(0));
-  const Points<2> X = body.quadrature.position, x = evaluate(body.interior, rest + u);
-  for (int k = 0; k < X.cols(); k += 2) picture.arrow(X.col(k), x.col(k) - X.col(k), blue, 1.5);
-}
-
-void draw_vectors(Picture& picture, const Discretization<2>& body, const Eigen::VectorXd& vectors,
-                  double scale, const std::vector<int>& free) {
-  draw_body(picture, body, body.unknowns.rest.reshaped(), colors::gray, pale);
-  for (int i = 0; i < body.unknowns.size(); ++i) {
-    const Vec<2> X = body.unknowns.rest.col(i);
-    picture.arrow(X, scale * vectors.segment<2>(2 * i), red, 3);
-    if (std::binary_search(free.begin(), free.end(), 2 * i))
-      picture.dot(X, colors::gray, 9);
-    else
-      picture.dot(X, colors::black, 14, MarkerShape::triangle);
-  }
-}
-
-void draw_springs(Picture& picture, const Samples<2>& samples, const Points<2>& map,
-                  const Points<2>& curve, const Eigen::VectorXd& energy) {
-  for (std::size_t i = 0; i + 1 < samples.first.size(); ++i) {
-    const auto part = Eigen::seq(samples.first[i], samples.first[i + 1] - 1);
-    picture.curve(map(Eigen::all, part), {.color = blue, .width = 4});
-    picture.curve(curve(Eigen::all, part), {.color = colors::gray, .width = 4});
-  }
-  const double largest = std::max(energy.maxCoeff(), 1e-300);
-  for (int s = 0; s < samples.size(); ++s)
-    picture.line(map.col(s), curve.col(s),
-                 {.color = colors::mix(colors::light_gray, red, energy[s] / largest), .width = 5});
-  picture.legend({{"the map x(X(u))", blue},
-                  {"the curve J(u) p", colors::gray},
-                  {"springs, red: most energy", red}},
-                 Picture::Corner::lower_left);
+void draw_frame(Picture& picture, const Scene<2>& scene, const Model<2>& model,
+                const State& state) {
+  PartCanvas part(picture.canvas(), picture.area());
+  FramePainter(scene).draw(part, model, state);
+  picture.set_view(view_box(scene, model), part.moved(FramePainter::area(part)));
+  read_values(picture, evaluate(model.discretization.interior, state.z), von_mises(model, state.z),
+              "von Mises stress, Pa");
 }
 
 void draw_weights(Picture& picture, const Discretization<2>& body,
@@ -341,6 +336,10 @@ void draw_weights(Picture& picture, const Discretization<2>& body,
     }
     picture.dot(body.quadrature.position.col(k), mixed, 12);
   }
+  const Eigen::MatrixXd w = dense(weights);
+  picture.hover(body.quadrature.position, [=, v = body.quadrature.weight](int k) {
+    return "w = " + list(w.row(k).transpose(), 3) + "\nv = " + rounded(v[k], 3) + " m²";
+  });
   const Outline outline(body);
   for (int i = 0; i < outline.n_parts(); ++i)
     picture.canvas().stroke(picture.view().map(outline.part(i, body.unknowns.rest)),

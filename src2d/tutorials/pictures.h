@@ -1,15 +1,24 @@
 #pragma once
 // Whole pictures that would hide a tutorial's recipe: steps 6 to 9 on the three-curve solid and its
-// like, steps 10 to 13 on bodies that move.
+// like, and the weights of step 13. The mouse reads the values that they show.
 
-#include <tuple>
 #include <utility>
 
 #include "sem/method/discretization.h"
+#include "sem/method/rays.h"
+#include "sem/scene/model.h"
 #include "src2d/tutorials/drawing.h"
 
 namespace sem::tutorial {
 
+void draw_boundary(Picture& picture, const Boundary<2>& boundary);
+/// A ray along an axis through the box, the stretches inside and the hits: crosses touch only.
+void draw_ray(Picture& picture, const Box<2>& box, int axis, double height,
+              const std::vector<RayHit>& hits, const std::vector<RayInterval>& inside,
+              double width);
+/// A function on [-1, 1]^2 in a square of pixels, red > 0, blue < 0, with its name.
+void draw_function(Picture& picture, const Box<2>& square, const std::string& name, bool pale,
+                   const std::function<double(const Vec<2>& X)>& f);
 /// The construction of figure 4: a line from the closest point `foot` of part i through X to the
 /// hit at distance d2 from X (clamped), with their names and lengths.
 void draw_construction(Picture& picture, const Curves& parts, int i, const Vec<2>& foot,
@@ -23,11 +32,12 @@ void draw_profiles(Picture& picture, const Eigen::VectorXd& at,
 void draw_fields(Picture& picture, const Cells& cells, const Curves& parts,
                  const std::vector<std::pair<std::string, Eigen::MatrixXd>>& rows,
                  const std::string& symbol);
+/// A colour, in [0, 1], and a text.
+using TriangleValue = std::function<std::pair<double, std::string>(const Eigen::Vector3d& w)>;
 /// In the right of the picture the triangle of all weights w >= 0, sum w = 1, of the parts A, B, C:
-/// colours from values in [0, 1], a dot at the weights `w` of X; left X in the solid, in its view.
+/// their values, a dot at the weights `w` of X; left X in the solid, in its view.
 void draw_triangle(Picture& picture, const Curves& parts, const Box<2>& world, const Vec<2>& X,
-                   const Eigen::Vector3d& w,
-                   const std::function<double(const Eigen::Vector3d& w)>& value);
+                   const Eigen::Vector3d& w, const TriangleValue& value);
 /// Squares at points in the colours of their groups; all from the eighth on are gray.
 void draw_groups(Picture& picture, const Points<2>& points, const std::vector<int>& group);
 /// Lines from the parts, numbered on the left, to the candidates named on the right: `score` is
@@ -35,10 +45,11 @@ void draw_groups(Picture& picture, const Points<2>& points, const std::vector<in
 /// Shown are candidates with a name: the first nine, and all that are taken.
 void draw_network(Picture& picture, const Eigen::MatrixXd& score,
                   const std::vector<std::string>& candidates, const std::vector<int>& taken);
-/// Parts with numbers, and lines from their middles to their origins: #parts indices `of_part` into
-/// the 2 by #origins positions, which have names.
-void draw_origins(Picture& picture, const Curves& parts, const std::vector<int>& of_part,
-                  const Points<2>& position, const std::vector<std::string>& names);
+/// "{1 2 5}": a set of parts, counted from 1.
+std::string text(const std::vector<int>& set);
+/// Parts with numbers, and lines from their middles to their origins, which are named by their
+/// sets.
+void draw_origins(Picture& picture, const Curves& parts, const Origins<2>& origins);
 /// Matrices with entries in [0, 1] side by side, rows and columns numbered from 1, columns in the
 /// colours of the parts, with their names below.
 void draw_shares(Picture& picture, const std::vector<Eigen::MatrixXd>& matrices,
@@ -57,32 +68,8 @@ void draw_forces(Picture& picture, const Points<2>& p, const Points<2>& forces);
 void draw_walks(Picture& picture, const Points<2>& image, const Points<2>& diffuse,
                 const Points<2>& exact);
 
-/// States of a body, the first thin, with their names in a legend.
-void draw_states(Picture& picture, const Discretization<2>& body,
-                 const std::vector<std::tuple<std::string, Color, Eigen::VectorXd>>& states);
-/// A scalar mass matrix as cells, and its row sums as dots at the control points.
-void draw_mass(Picture& picture, const Discretization<2>& body, const Eigen::MatrixXd& M);
-/// Side by side, the last in blue: where a hung body's curves and points ended.
-void draw_hung(Picture& picture, const Discretization<2>& body,
-               const std::vector<std::pair<std::string, Eigen::VectorXd>>& ends);
-
-/// Several states of a body, the first dark, the last light, with the last one's time, s.
-void draw_motion(Picture& picture, const Discretization<2>& body,
-                 const std::vector<Eigen::VectorXd>& z, double time);
-
-/// On the right, a displacement of z from rest: the boundary in red, points inside as blue arrows.
-void draw_displacement(Picture& picture, const Discretization<2>& body, const Eigen::VectorXd& u);
-
-/// The body at rest and its control points with a vector (entries as z's) each, `scale` m per unit;
-/// entries that are not `free` are marked as pinned.
-void draw_vectors(Picture& picture, const Discretization<2>& body, const Eigen::VectorXd& vectors,
-                  double scale, const std::vector<int>& free);
-
-/// Springs between two sets of the boundary samples, red where `energy` is large; `map` in blue,
-/// `curve` in gray.
-void draw_springs(Picture& picture, const Samples<2>& samples, const Points<2>& map,
-                  const Points<2>& curve, const Eigen::VectorXd& energy);
-
+/// FramePainter's picture of a state; the mouse reads the stress.
+void draw_frame(Picture& picture, const Scene<2>& scene, const Model<2>& model, const State& state);
 /// Quadrature points in the mean of the parts' colours by their weights; the parts themselves.
 void draw_weights(Picture& picture, const Discretization<2>& body,
                   const std::vector<Color>& part_colors);

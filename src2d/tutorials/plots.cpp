@@ -10,14 +10,47 @@
 
 namespace sem::tutorial {
 
+void read_curves(Picture& picture, const Box<2>& rectangle, Panel& panel,
+                 const std::vector<Trace>& curves, bool along_x) {
+  // Where they are in pixels, the panel knows when it is drawn. NaN: it cannot show them.
+  const auto box = std::make_shared<Box<2>>();
+  const auto shown = std::make_shared<std::vector<Polyline>>();
+  panel.draw([=](const Pen& pen) {
+    *box = pen.box();
+    shown->clear();
+    for (const auto& curve : curves) shown->push_back(pen.map(zip(curve.x, curve.y)));
+  });
+  const Vec<2> origin = rectangle.lower.array().round();
+  picture.hover(rectangle, [=, x = panel.x.label, y = panel.y.label](const Vec<2>& at) {
+    const Vec<2> pixel = at - origin;
+    double least = std::numeric_limits<double>::infinity();
+    std::string text;
+    if ((pixel.array() < box->lower.array()).any() || (pixel.array() > box->upper.array()).any())
+      return text;
+    for (std::size_t c = 0; c < shown->size(); ++c)
+      for (std::size_t k = 0; k < (*shown)[c].size(); ++k) {
+        const Vec<2> d = (*shown)[c][k] - pixel;
+        const double distance = along_x ? std::abs(d[0]) : d.norm();
+        if (!(distance < least)) continue;
+        least = distance;
+        text = curves[c].label;
+        for (const auto& [label, value] : {std::pair(x, curves[c].x[k]), {y, curves[c].y[k]}})
+          if (!label.empty()) text += (text.empty() ? "" : "\n") + reading(label, value);
+      }
+    return text;
+  });
+}
+
 void draw_panel(Picture& picture, const Axis& x, const Axis& y,
-                const std::function<void(Panel& panel)>& content,
+                const std::function<void(Panel& panel)>& content, const std::vector<Trace>& curves,
                 const std::optional<Box<2>>& rectangle) {
-  picture.plot(rectangle.value_or(picture.part({0.02, 0.02}, {0.98, 0.98})), [&](Plot& plot) {
+  const Box<2> place = rectangle.value_or(picture.part({0.02, 0.02}, {0.98, 0.98}));
+  picture.plot(place, [&](Plot& plot) {
     Panel& panel = plot.panel();
     panel.x = x;
     panel.y = y;
     content(panel);
+    read_curves(picture, place, panel, curves);
   });
 }
 
@@ -28,14 +61,17 @@ Series line(const std::string& label, const Color& color, int dash) {
 
 void draw_columns(Picture& picture, const Axis& x, const Axis& y, const std::vector<double>& at,
                   const Eigen::MatrixXd& values, const std::vector<std::string>& names,
-                  const std::optional<Box<2>>& rectangle) {
+                  const std::optional<Box<2>>& rectangle, const std::optional<double>& now) {
+  std::vector<Trace> curves;
+  for (int j = 0; j < values.cols(); ++j) curves.push_back({names[j], at, column(values, j)});
   draw_panel(
       picture, x, y,
       [&](Panel& panel) {
         for (int j = 0; j < values.cols(); ++j)
-          panel.curve(at, column(values, j), line(names[j], part_color(j), j % 3));
+          panel.curve(at, curves[j].y, line(names[j], part_color(j), j % 3));
+        if (now) panel.vertical(*now, "");
       },
-      rectangle);
+      curves, rectangle);
 }
 
 Axis count_axis(const std::string& label, int n) {
@@ -79,6 +115,7 @@ void draw_charts(Picture& picture, const std::vector<Chart>& charts, const Box<2
         if (x.size() >= 12) style.marker.reset();
         panel.curve(x, y, style);
       }
+      read_curves(picture, rectangle, panel, charts[c].traces);
       if (charts[c].now) panel.vertical(*charts[c].now, "now");
     }
   });
@@ -107,30 +144,39 @@ std::string text(const Check& check) {
 }
 
 void draw_errors(Picture& picture, const std::vector<std::pair<std::string, Check>>& checks) {
+  std::vector<Trace> curves;
+  for (const auto& [name, check] : checks) curves.push_back({name, check.h, check.error});
+  const auto content = [&](Panel& panel) {
+    for (int k = 0; k < int(curves.size()); ++k)
+      panel.curve(curves[k].x, curves[k].y, line(curves[k].label, part_color(1 - k)));
+  };
   draw_panel(picture, {.label = "step h", .logarithmic = true},
-             {.label = "error", .logarithmic = true}, [&](Panel& panel) {
-               for (std::size_t k = 0; k < checks.size(); ++k)
-                 panel.curve(checks[k].second.h, checks[k].second.error,
-                             line(checks[k].first, part_color(1 - int(k))));
-             });
+             {.label = "error", .logarithmic = true}, content, curves);
 }
 
 void draw_bars(Picture& picture, const std::string& y_label,
                const std::vector<std::pair<std::string, double>>& bars) {
   std::vector<double> at, height;
-  for (const auto& [bar, value] : bars) at.push_back(double(at.size())), height.push_back(value);
+  std::vector<Trace> tops;
+  for (const auto& [bar, value] : bars) {
+    at.push_back(double(at.size())), height.push_back(value);
+    tops.push_back({bar, {at.back()}, {value}});
+  }
   const double largest = *std::max_element(height.begin(), height.end());
-  const Axis x{.lower = -0.8, .upper = double(bars.size()) - 0.2, .tick_labels = false};
-  const Axis y{.label = y_label, .lower = 0, .upper = largest > 0 ? 1.1 * largest : 1};
-  draw_panel(picture, x, y, [&](Panel& panel) {
+  const Box<2> place = picture.part({0.02, 0.02}, {0.98, 0.98});
+  picture.plot(place, [&](Plot& plot) {
+    Panel& panel = plot.panel();
+    panel.x = {.lower = -0.8, .upper = double(bars.size()) - 0.2, .tick_labels = false};
+    panel.y = {.label = y_label, .lower = 0, .upper = largest > 0 ? 1.1 * largest : 1};
     for (std::size_t k = 0; k < bars.size(); ++k)
       panel.note({at[k], height[k]}, bars[k].first, {.offset = {0, 6}});
     panel.bars(at, height, 0.4, blue);
+    read_curves(picture, place, panel, tops, true);
   });
 }
 
 void draw_matrix(Picture& picture, const Eigen::MatrixXd& matrix, const std::vector<int>& first,
-                 const Box<2>& square) {
+                 const Box<2>& square, const std::string& name) {
   Image image(int(matrix.cols()), int(matrix.rows()));
   const double largest = matrix.cwiseAbs().maxCoeff();
   for (int i = 0; i < matrix.rows(); ++i)
@@ -144,6 +190,18 @@ void draw_matrix(Picture& picture, const Eigen::MatrixXd& matrix, const std::vec
     picture.canvas().line({at[0], square.lower[1]}, {at[0], square.upper[1]}, line);
     picture.canvas().line({square.lower[0], at[1]}, {square.upper[0], at[1]}, line);
   }
+  read_matrix(picture, matrix, square, name);
+}
+
+void read_matrix(Picture& picture, const Eigen::MatrixXd& matrix, const Box<2>& rectangle,
+                 const std::string& name) {
+  picture.hover(rectangle, [=](const Vec<2>& pixel) {
+    const Vec<2> share = (pixel - rectangle.lower).cwiseQuotient(rectangle.upper - rectangle.lower);
+    const int i = std::min(int(share[1] * double(matrix.rows())), int(matrix.rows()) - 1),
+              j = std::min(int(share[0] * double(matrix.cols())), int(matrix.cols()) - 1);
+    return name + "(" + std::to_string(i + 1) + ", " + std::to_string(j + 1) +
+           ") = " + rounded(matrix(i, j), 3);
+  });
 }
 
 }  // namespace sem::tutorial

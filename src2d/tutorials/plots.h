@@ -12,10 +12,21 @@
 
 namespace sem::tutorial {
 
-/// A plot of one panel on all of the picture, or in a part of it.
+/// Values over their own x, and what they are called.
+struct Trace {
+  std::string label;
+  std::vector<double> x, y;
+};
+
+/// A plot of one panel on all of the picture, or in a part of it. The mouse reads the points of
+/// `curves`, which `content` draws.
 void draw_panel(Picture& picture, const Axis& x, const Axis& y,
                 const std::function<void(Panel& panel)>& content,
-                const std::optional<Box<2>>& rectangle = {});
+                const std::vector<Trace>& curves = {}, const std::optional<Box<2>>& rectangle = {});
+/// Lets the mouse read the nearest point (or the one nearest in x) of several curves of a panel of
+/// Picture::plot(rectangle).
+void read_curves(Picture& picture, const Box<2>& rectangle, Panel& panel,
+                 const std::vector<Trace>& curves, bool along_x = false);
 /// A line of a plot; dash 0: solid, 1, 2: others.
 Series line(const std::string& label, const Color& color, int dash = 0);
 /// A column of a matrix, for plots.
@@ -23,22 +34,20 @@ inline std::vector<double> column(const Eigen::MatrixXd& m, int j) {
   return {m.col(j).begin(), m.col(j).end()};
 }
 
-/// The columns of a matrix over `at`, with their names, in numbered colours and dashes.
+/// The columns of a matrix over `at`, with their names, in numbered colours and dashes; a vertical
+/// line at `now`.
 void draw_columns(Picture& picture, const Axis& x, const Axis& y, const std::vector<double>& at,
                   const Eigen::MatrixXd& values, const std::vector<std::string>& names,
-                  const std::optional<Box<2>>& rectangle = {});
+                  const std::optional<Box<2>>& rectangle = {},
+                  const std::optional<double>& now = {});
 
 /// An axis of counts from 0 to n, with a tick each.
 Axis count_axis(const std::string& label, int n);
 
-/// Values over their own x, in numbered colours, with markers if there are fewer than 12.
-struct Trace {
-  std::string label;
-  std::vector<double> x, y;
-};
 /// Eigenvalues of a symmetric matrix over the largest, from 1e-18 on, for a logarithmic axis.
 Trace spectrum(const std::string& label, const Eigen::MatrixXd& matrix);
-/// A panel with axes. Without any labels there is no legend.
+/// A panel with axes: traces in numbered colours, with markers if they have fewer than 12 points.
+/// Without any labels there is no legend.
 struct Chart {
   Axis x, y;
   std::vector<Trace> traces;
@@ -66,9 +75,12 @@ void draw_errors(Picture& picture, const std::vector<std::pair<std::string, Chec
 void draw_bars(Picture& picture, const std::string& y_label,
                const std::vector<std::pair<std::string, double>>& bars);
 
+/// Lets the mouse read "NAME(row, column) = entry" of a matrix that fills a rectangle.
+void read_matrix(Picture& picture, const Eigen::MatrixXd& matrix, const Box<2>& rectangle,
+                 const std::string& name);
 /// A matrix as coloured cells in a square, white = 0, red > 0, blue < 0, with lines before the rows
 /// and columns `first` (where parts begin).
 void draw_matrix(Picture& picture, const Eigen::MatrixXd& matrix, const std::vector<int>& first,
-                 const Box<2>& square);
+                 const Box<2>& square, const std::string& name);
 
 }  // namespace sem::tutorial

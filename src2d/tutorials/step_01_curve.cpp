@@ -27,7 +27,8 @@
 #include "sem/method/samples.h"
 #include "sem/nurbs/basis.h"
 #include "sem/nurbs/closest.h"
-#include "sem/plot/plot.h"
+#include "src2d/tutorials/drawing.h"
+#include "src2d/tutorials/plots.h"
 
 using namespace sem;
 
@@ -72,6 +73,7 @@ Points<2> graph(const Nurbs<1, 2>& curve) {
 
 const Color gray = colors::gray, blue = colors::categorical(0), red = colors::categorical(1);
 const std::string subscript[] = {"₁", "₂", "₃", "₄", "₅", "₆", "₇"};
+const std::vector<std::string> R_names = {"R₁", "R₂", "R₃", "R₄", "R₅", "R₆", "R₇"};
 
 void draw_curve(Picture& picture, const Nurbs<1, 2>& curve) {
   picture.curve(curve.control_points, {.color = colors::light_gray, .width = 2});
@@ -95,7 +97,9 @@ int main(int argc, char** argv) {
   const int n = int(p.cols());
   Nurbs<1, 2> curve;
   const auto nearest = [&](const Vec<2>& X) {  // shown under the mouse
-    return "nearest point: u = " + rounded(closest_point<2>(prepare(curve), X).u[0], 3);
+    const double at = closest_point<2>(prepare(curve), X).u[0];
+    return "u = " + rounded(at, 3) + ": x = " + tutorial::coordinates(position(curve, at)) +
+           "\nR = " + tutorial::list(rational_basis(curve, at), 2);
   };
   lesson.slider("degree", degree, 1, 5, "of the curve");
   lesson.slider("w4", w4, 0.1, 10, "weight of p4, the others have 1", Lesson::Scale::logarithmic);
@@ -129,20 +133,15 @@ int main(int argc, char** argv) {
             << "x(u) = sum R_i p_i:" << rounded(position(curve, u).transpose(), 4, " ");
       },
       [&](Picture& picture) {
-        picture.plot(picture.part({0, 0.05}, {0.5, 0.95}), [&](Plot& plot) {
-          Panel& panel = plot.panel();
-          panel.x.label = "u";
-          for (int i = 0; i < n; ++i) {
-            std::vector<Vec<2>> values;
-            for (double v = 0; v <= 1; v += 1.0 / 256)
-              values.emplace_back(v, rational_basis(curve, v)[i]);
-            panel.curve(values, {"R" + subscript[i], colors::categorical(i)});
-          }
-          panel.vertical(u, "");
-        });
+        Eigen::MatrixXd values(n, 257);
+        for (int k = 0; k <= 256; ++k) values.col(k) = rational_basis(curve, k / 256.0);
+        tutorial::draw_columns(picture, {.label = "u"}, {.label = "R"},
+                               tutorial::column(Eigen::VectorXd::LinSpaced(257, 0, 1), 0),
+                               values.transpose(), R_names, picture.part({0, 0.05}, {0.5, 0.95}),
+                               u);
         picture.set_view(lesson.world(), picture.part({0.5, 0}, {1, 1}));
         draw_curve(picture, curve);
-        for (int i = 0; i < n; ++i) picture.dot(p.col(i), colors::categorical(i), 12);
+        for (int i = 0; i < n; ++i) picture.dot(p.col(i), tutorial::part_color(i), 12);
         picture.dot(position(curve, u), colors::black, 14);
         picture.label(position(curve, u), "x(u)");
       },
@@ -193,16 +192,13 @@ int main(int argc, char** argv) {
             << error_text((back.transpose() - p).cwiseAbs().maxCoeff(), 1e-10) << "\n";
       },
       [&](Picture& picture) {
-        Image values(n, int(J.rows()));
-        for (int s = 0; s < J.rows(); ++s)
-          for (int i = 0; i < n; ++i)
-            values.set(i, s, J(s, i) == 0 ? colors::white : colors::viridis(J(s, i)));
-        picture.canvas().image(values, picture.part({0.04, 0.09}, {0.3, 0.96}));
-        picture.note("J: a row is a sample, a column a control point; white is 0, yellow is 1");
+        tutorial::draw_matrix(picture, J, {}, picture.part({0.04, 0.09}, {0.3, 0.96}), "J");
+        picture.note("J: a row is a sample, a column a control point; light grey is 0, red is 1");
         picture.set_view(lesson.world(), picture.part({0.32, 0.09}, {1, 1}));
         draw_curve(picture, curve);
         picture.dots(samples.position, red, 9);
-      });
+      },
+      nearest);
 
   // [5] Derivatives. x is linear in p, so that dx/dp_i = R_i I and its finite difference is exact
   // for any s. In w_4 it is not linear: there the error falls as s^2. D-NURBS is this linearity:
@@ -243,7 +239,8 @@ int main(int argc, char** argv) {
           picture.arrow(position(curve, k / 40.0), {0, h * rational_basis(curve, k / 40.0)[i - 1]},
                         red, 1.5);
         picture.legend({{"p" + subscript[i - 1] + " moved", red, {}, {8, 6}}});
-      });
+      },
+      nearest);
   return lesson.run(argc, argv);
 }
 // Next: step_02_interior, points inside from the boundary alone.

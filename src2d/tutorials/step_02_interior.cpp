@@ -23,8 +23,8 @@
 #include "sem/method/quadrature.h"
 #include "sem/nurbs/basis.h"
 #include "src2d/shapes/shapes.h"
-#include "src2d/tutorials/drawing.h"
 #include "src2d/tutorials/matrices.h"
+#include "src2d/tutorials/pictures.h"
 
 using namespace sem;
 using namespace sem::tutorial;
@@ -93,21 +93,6 @@ double total(const std::vector<RayInterval>& intervals) {
   return std::accumulate(intervals.begin(), intervals.end(), 0.0,
                          [](double sum, auto& i) { return sum + i.end - i.begin; });
 }
-
-const Stroke thick{.color = blue, .width = 3.5};
-void draw_ray(Picture& picture, const Boundary<2>& boundary, const Loops<2>& loops, int axis,
-              double height, double width) {
-  const auto at = [&](double t) { return axis == 0 ? Vec<2>(t, height) : Vec<2>(height, t); };
-  const auto hits = find_hits(boundary, height, axis);
-  picture.line(at(boundary.box.lower[axis]), at(boundary.box.upper[axis]),
-               {.color = hits.empty() ? colors::categorical(1) : colors::gray, .dash = {6, 5}});
-  for (const auto& i : inside(hits, loops))
-    picture.line(at(i.begin), at(i.end), {.color = green, .width = width});
-  for (const auto& h : hits)
-    picture.dot(at(h.t), colors::black, 6 + width,
-                h.crosses ? MarkerShape::circle : MarkerShape::cross);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -118,6 +103,19 @@ int main(int argc, char** argv) {
   Boundary<2> boundary;
   Loops<2> loops;
   Moments<2> truth;
+  int axis = 0;
+  const auto before = [&](const Vec<2>& X) {  // shown under the mouse: (b)
+    int n = 0;
+    const auto hits = find_hits(boundary, X[1 - axis], axis);
+    for (const auto& h : hits) n += h.crosses && h.t < X[axis];
+    return std::to_string(n) +
+           " crossings up to here: " + (inside(boundary, loops, X) ? "inside" : "outside") +
+           "\nlength inside on this ray: " + rounded(total(inside(hits, loops)), 4) + " m";
+  };
+  const auto draw = [&](Picture& picture, double height, double width) {
+    const auto hits = find_hits(boundary, height, axis);
+    draw_ray(picture, boundary.box, axis, height, hits, inside(hits, loops), width);
+  };
   lesson.handles("p", p, "control point");
   lesson.step(
       "Solids are their boundaries: area by the divergence theorem",
@@ -140,15 +138,15 @@ int main(int argc, char** argv) {
             << ", of their union " << rounded(truth.volume, 5) << "\n";
       },
       [&](Picture& picture) {
-        for (const auto& part : boundary.parts) picture.curve(polyline(part.nurbs), thick);
+        draw_boundary(picture, boundary);
         picture.curve(p, {.color = colors::light_gray, .width = 2, .closed = true});
         picture.dots(p, colors::gray, 11);
         picture.dot(truth.first / truth.volume, colors::black, 16, MarkerShape::plus);
         picture.note("+: the centroid, by integrals along the curves");
-      });
+      },
+      before);
 
   // [2] Single rays. 0 counts as + everywhere: then a touch is no crossing, and a joint is one.
-  int axis = 0;
   Vec<2> through(1.5, 1.6);
   std::vector<double> heights;
   const char* const names[] = {"touch", "joint", "miss", "ray"};
@@ -168,14 +166,15 @@ int main(int argc, char** argv) {
               << rounded(total(inside(find_hits(boundary, heights[r], axis), loops)), 4) << "\n";
       },
       [&](Picture& picture) {
-        for (const auto& part : boundary.parts) picture.curve(polyline(part.nurbs), thick);
+        draw_boundary(picture, boundary);
         for (int r = 0; r < 4; ++r) {
-          draw_ray(picture, boundary, loops, axis, heights[r], 7);
+          draw(picture, heights[r], 7);
           const Vec<2> at = axis == 0 ? Vec<2>(-0.2, heights[r]) : Vec<2>(heights[r], -r / 5.0);
           picture.label(at, names[r], colors::black, {axis - 1.0, 0});
         }
         picture.note("green: inside, dots: crossings, crosses: touches");
-      });
+      },
+      before);
 
   // [3] Rays at the middles of strips of the box (the paper's), or at Gauss points: these gain
   // little, as the length inside has a kink at every joint and a vertical tangent at every touch.
@@ -206,10 +205,10 @@ int main(int argc, char** argv) {
           out << n << " rays: midpoint " << error(n, 0) << ", gauss " << error(n, 1) << "\n";
       },
       [&](Picture& picture) {
-        for (const auto& ray : rays.rays)
-          draw_ray(picture, boundary, loops, axis, ray.origin[1 - axis], 3);
-        for (const auto& part : boundary.parts) picture.curve(polyline(part.nurbs), thick);
-      });
+        for (const auto& ray : rays.rays) draw(picture, ray.origin[1 - axis], 3);
+        draw_boundary(picture, boundary);
+      },
+      before);
 
   // [4] Points in every stretch, and (c) for other f.
   int points = 6;
@@ -240,10 +239,10 @@ int main(int argc, char** argv) {
         const double most = quadrature.weight.maxCoeff();
         for (int k = 0; k < quadrature.size(); ++k)
           picture.dot(quadrature.position.col(k), colors::viridis(quadrature.weight[k] / most));
-        for (const auto& part : boundary.parts) picture.curve(polyline(part.nurbs), thick);
-        color_bar(picture, {560, 560}, "v = 0", rounded(most, 2));
-      },
-      [&](const Vec<2>& X) { return value_near(quadrature.position, quadrature.weight, X, "v"); });
+        draw_boundary(picture, boundary);
+        color_bar(picture, "v = 0", rounded(most, 2), Vec<2>(560, 560));
+        read_values(picture, quadrature.position, quadrature.weight, "v");
+      });
   return lesson.run(argc, argv);
 }
 // Next: step_03_least_squares, polynomials that follow the boundary.

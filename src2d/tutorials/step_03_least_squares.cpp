@@ -19,12 +19,11 @@
 // Things to try: [2] x a parallelogram. [3] n = 4; h = 0.1: why does "at once" look right there?
 #include <cmath>
 
-#include "sem/draw/image.h"
 #include "sem/lesson/lesson.h"
 #include "sem/method/projection.h"
 #include "sem/nurbs/bezier_curve.h"
-#include "src2d/tutorials/drawing.h"
 #include "src2d/tutorials/matrices.h"
+#include "src2d/tutorials/pictures.h"
 
 using namespace sem;
 using namespace sem::tutorial;
@@ -84,6 +83,9 @@ void draw_grid(Picture& picture, int n, const MatrixXd& Pi, const Color& color) 
       X.col(k) << (i < 9 ? i / 2.0 : k / 10.0) - 2, (i < 9 ? k / 20.0 : (i - 9) / 2.0) - 1;
     picture.curve(Pi * monomials(n, X), {.color = color, .width = 2});
   }
+  picture.hover([=](const Vec<2>& at) {
+    return "X = " + coordinates(at) + " goes to\n    " + coordinates(Pi * monomials(n, at));
+  });
 }
 
 const Color light = colors::light_gray, black = colors::black;
@@ -116,17 +118,9 @@ int main(int argc, char** argv) {
       [&](Picture& picture) {
         for (const auto& e : exponents(2, 4)) {
           const int k = e[0] + e[1];
-          Image image(60, 60);
-          for (int i = 0; i < 60; ++i)
-            for (int j = 0; j < 60; ++j) {
-              const double m = monomial(e, Vec<2>(i - 29.5, 29.5 - j) / 30);
-              const Color color = colors::diverging(0.5 + m / 2);
-              image.set(i, j, k <= n ? color : colors::mix(colors::white, color, 0.15));
-            }
           const Vec<2> at(400 + 150 * (e[1] - k / 2.0), 60 + 135 * (k - 1));
-          picture.canvas().image(image, {at, at + Vec<2>(100, 100)});
-          picture.canvas().text(at - Vec<2>(0, 7), name(e),
-                                {.size = 18, .color = k <= n ? black : colors::gray});
+          draw_function(picture, {at, at + Vec<2>(100, 100)}, name(e), k > n,
+                        [=](const Vec<2>& x) { return monomial(e, x); });
         }
         picture.note("on [−1, 1]²: red +, blue −");
       });
@@ -164,6 +158,10 @@ int main(int argc, char** argv) {
         }
         picture.dots(x, red, 14);
         picture.note("grey: rest, red: samples and what is left, blue: Pi m(X) + xbar");
+        picture.hover(x, [&](int s) {
+          return "x" + std::to_string(s + 1) + " = " + coordinates(x.col(s)) +
+                 "\nleft: " + coordinates(x.col(s) - matched.col(s));
+        });
       });
 
   // [3] Five samples of a straight edge at y = h; nothing moves, x = X. The origin is (0, 0): other

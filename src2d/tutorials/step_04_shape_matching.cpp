@@ -50,10 +50,6 @@ Mat<2> mean_gradient(const Boundary<2>& rest, const Samples<2>& samples, const M
 }
 
 Points<2> outline_of(const Points<2>& p) { return polyline(closed_curve(p), 200); }
-void draw(Picture& picture, const Points<2>& outline, const Color& color) {
-  picture.curve(outline, {.color = color, .width = 4});
-}
-
 const Color light = colors::light_gray;
 
 }  // namespace
@@ -88,12 +84,15 @@ int main(int argc, char** argv) {
         print(out, "Xbar, plain mean (the draft), centre of mass", middles);
       },
       [&](Picture& picture) {
-        draw(picture, outline, light);
+        draw_outline(picture, outline, light);
         picture.dots(samples.position, colors::gray, 9);
-        picture.dot(Xbar, blue, 18, MarkerShape::plus);
-        picture.dot(middles.col(1), red, 16, MarkerShape::cross);
-        picture.dot(middles.col(2), green, 14, MarkerShape::diamond);
-        picture.note("blue +: Xbar, red ×: plain mean, green: centre of mass");
+        picture.dot(middles.col(2), green, 16, MarkerShape::diamond);
+        picture.dot(middles.col(1), red, 18, MarkerShape::cross);
+        picture.dot(Xbar, blue, 20, MarkerShape::plus);
+        picture.legend({{"Xbar, (4) by length", blue, MarkerShape::plus},
+                        {"plain mean of the samples", red, MarkerShape::cross},
+                        {"centre of mass", green, MarkerShape::diamond}});
+        read_values(picture, samples.position, samples.weight, "length of the sample, m");
       });
 
   // [2] Control points move to p, samples to J p, and the polynomial follows.
@@ -137,9 +136,9 @@ int main(int argc, char** argv) {
         out << "library's - ours: " << error_text((x.leftCols(m) - M * K).norm(), 1e-10) << "\n";
       },
       [&](Picture& picture) {
-        draw(picture, outline, light);
-        draw(picture, outline_of(p), red);
-        draw(picture, fit(outline), blue);
+        draw_outline(picture, outline, light);
+        draw_outline(picture, outline_of(p), red);
+        draw_outline(picture, fit(outline), blue, outline_of(p), "left over, m");
         picture.legend({{"rest", light}, {"x = J p", red}, {"Pi m + xbar", blue}});
       });
 
@@ -155,14 +154,14 @@ int main(int argc, char** argv) {
             << "\nGamma p - (2): " << error_text((p * Gamma.transpose() - fit(X)).norm()) << "\n";
       },
       [&](Picture& picture) {
-        draw(picture, outline, light);
-        for (int j = 0; j < m; ++j) {
-          const Color color = Gamma[j] > 0 ? blue : red;
-          picture.line(X, p0.col(j), {.color = color, .width = 1 + 40 * std::abs(Gamma[j])});
-          picture.label(p0.col(j), rounded(Gamma[j], 2), color);
-        }
-        picture.dot(X, colors::black, 13);
+        draw_outline(picture, outline, light);
+        draw_influence(picture, X, p0, Gamma.transpose(), "Γ");
+        for (int j = 0; j < m; ++j)
+          picture.label(p0.col(j), rounded(Gamma[j], 2), Gamma[j] > 0 ? blue : red);
         picture.note("shares of the control points in x(X): blue positive, red negative");
+      },
+      [&](const Vec<2>& at) {
+        return "Γ = " + list((monomial_rows(n, at, Xbar) * K + t).transpose(), 2);
       });
 
   // [4] 2005: masses at points (here v_s), A = A_pq A_qq. Goals that points are pulled to: by A's
@@ -189,9 +188,10 @@ int main(int argc, char** argv) {
             << error_text((A2 - once.transpose()).norm(), 1e-10) << "\n";
       },
       [&](Picture& picture) {
-        draw(picture, outline_of(p), red);
-        draw(picture, affine_image(A), blue);
-        draw(picture, affine_image(beta * A + (1 - beta) * R), green);
+        draw_outline(picture, outline_of(p), red);
+        draw_outline(picture, affine_image(A), blue, outline_of(p), "from A to J p, m");
+        draw_outline(picture, affine_image(beta * A + (1 - beta) * R), green, outline_of(p),
+                     "from goal to J p, m");
         picture.legend({{"x = J p", red}, {"A", blue}, {"goals", green}});
       });
 
@@ -217,9 +217,9 @@ int main(int argc, char** argv) {
             << "\n  our curve, as it is: " << error_text((A - mean).norm()) << "\n";
       },
       [&](Picture& picture) {
-        draw(picture, outline_of(p), red);
-        draw(picture, affine_image(A), blue);
-        draw(picture, affine_image(mean), green);
+        draw_outline(picture, outline_of(p), red);
+        draw_outline(picture, affine_image(A), blue);
+        draw_outline(picture, affine_image(mean), green, affine_image(A), "between both, m");
         picture.legend({{"x = J p", red}, {"shape matching", blue}, {"mean gradient", green}});
       });
 
@@ -240,8 +240,8 @@ int main(int argc, char** argv) {
             << error_text((S * blind.transpose()).norm(), 1e-9) << "\n";
       },
       [&](Picture& picture) {
-        draw(picture, outline_of(p0 + amount * blind), red);
-        draw(picture, outline, blue);
+        draw_outline(picture, outline_of(p0 + amount * blind), red, outline, "moved by, m");
+        draw_outline(picture, outline, blue);
         picture.legend({{"x = J p", red}, {"Pi m + xbar stays", blue}});
       });
   return lesson.run(argc, argv);

@@ -23,7 +23,6 @@
 #include "sem/mechanics/material.h"
 #include "sem/method/boundary_integrals.h"
 #include "sem/method/discretization.h"
-#include "sem/nurbs/basis.h"
 #include "sem/nurbs/refine.h"
 #include "src2d/tutorials/drawing.h"
 #include "src2d/tutorials/matrices.h"
@@ -75,9 +74,6 @@ Eigen::SparseMatrix<double> stiffness(const Mesh& mesh, const StressDerivative<2
   K.setFromTriplets(entries.begin(), entries.end());
   return K;
 }
-
-const Color gray = colors::gray;
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -100,9 +96,11 @@ int main(int argc, char** argv) {
             << rounded(area.sum(), 5) << ", error " << error_text(area.sum() / truth - 1) << "\n";
       },
       [&](Picture& picture) {
-        draw_mesh(picture, mesh, mesh.node, gray);
-        picture.dots(mesh.node, gray, 7);
+        draw_mesh(picture, mesh, mesh.node, colors::gray);
+        picture.dots(mesh.node, colors::gray, 7);
         draw_parts(picture, curves, "", 3);
+        read_elements(picture, mesh, mesh.node,
+                      [&](int e) { return reading("area, m²", triangle(mesh, e).area); });
       });
 
   // [2] Nodes move to x_a: here on a parabola. In an element x(X) is their mean with weights
@@ -131,7 +129,7 @@ int main(int argc, char** argv) {
             << ", of the parabola: " << rounded(2 * bend * X[0], 4) << "\n";
       },
       [&](Picture& picture) {
-        draw_mesh(picture, mesh, x, gray);
+        draw_mesh(picture, mesh, x, colors::gray);
         const Points<2> corners = x(Eigen::all, mesh.element[element]);
         picture.fill(corners, blue.with_alpha(0.3));
         for (int a = 0; a < 3; ++a) {
@@ -140,6 +138,9 @@ int main(int argc, char** argv) {
           picture.label(corners.col(a), "N = " + rounded(N[a], 2), blue, {off[0], -off[1]});
         }
         picture.dot(corners * N, red, 13);
+        read_elements(picture, mesh, x, [&](int e) {
+          return "F = " + list(deformation_gradient(mesh, e, x).reshaped<Eigen::RowMajor>(), 3);
+        });
       });
 
   // [3] Linear elasticity: Psi is quadratic, so V = u K u / 2 for displacements u. K couples nodes
@@ -168,11 +169,12 @@ int main(int argc, char** argv) {
             << " J; sum of the forces: " << error_text(sum.norm(), 1e-6) << " N\n";
       },
       [&](Picture& picture) {
-        draw_mesh(picture, mesh, x, gray);
+        draw_mesh(picture, mesh, x, colors::gray);
         const double longest = f.cwiseAbs().maxCoeff();
         for (int a = 0; a < x.cols() && longest > 0; ++a)
           picture.arrow(x.col(a), 0.6 / longest * f.segment<2>(2 * a), red);
         picture.note("forces on the nodes, in balance: inside they nearly cancel");
+        picture.hover(x, [&](int a) { return "f = " + coordinates(f.segment<2>(2 * a)) + " N"; });
       });
 
   // [4] The patch test: an affine motion of the boundary has to go on inside, whatever the mesh.
@@ -189,7 +191,11 @@ int main(int argc, char** argv) {
       },
       [&](Picture& picture) {
         draw_mesh(picture, mesh, mesh.node, colors::light_gray);
-        draw_mesh(picture, mesh, mesh.node + u.reshaped(2, mesh.node.cols()), blue);
+        const Points<2> moved = mesh.node + u.reshaped(2, mesh.node.cols());
+        draw_mesh(picture, mesh, moved, blue);
+        read_motion(picture, mesh.node, moved);
+        picture.note(
+            "grey: at rest; blue: the boundary moves affinely, the inside follows exactly");
       });
 
   // [5] The method needs no mesh and fewer unknowns; but each point depends on many of them, K is
@@ -233,14 +239,8 @@ int main(int argc, char** argv) {
           picture.set_view(lesson.world(), picture.part({side / 2.0, 0.05}, {(side + 1) / 2.0, 1}));
           if (side == 0) draw_mesh(picture, mesh, mesh.node, colors::light_gray);
           draw_parts(picture, curves, "", 3);
-          for (int j = 0; j < (side == 0 ? 3 : p.cols()); ++j) {
-            const double value = side == 0 ? N[j] : Gamma(0, j);
-            const Vec<2> end = side == 0 ? nodes.col(j) : p.col(j);
-            const Color color = (value > 0 ? blue : red).with_alpha(0.6);
-            picture.line(X, end, {.color = color, .width = 1 + 20 * std::abs(value)});
-            picture.dot(end, gray, 10);
-          }
-          picture.dot(X, colors::black, 12);
+          if (side == 0) draw_influence(picture, X, nodes, N, "N");
+          if (side == 1) draw_influence(picture, X, p, Gamma.row(0).transpose(), "Γ");
         }
         picture.note("x(X): three nodes of a mesh inside, or the control points of the boundary");
       });

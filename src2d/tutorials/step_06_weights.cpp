@@ -110,7 +110,11 @@ int main(int argc, char** argv) {
             << ", d2 = " << rounded(ray.d2, 4) << " m, d_total = " << rounded(ray.total, 4)
             << " m\n";
       },
-      [&](Picture& picture) { draw_construction(picture, parts, i, ray.foot, X, ray.d2); });
+      [&](Picture& picture) { draw_construction(picture, parts, i, ray.foot, X, ray.d2); },
+      [&](const Vec<2>& at) {
+        const Chord there = shoot(boundary, i, at);
+        return reading("d₁, m", there.d1) + "\n" + reading("d₂, m", there.d2);
+      });
 
   // [2] The formulas at X, and along the ray for the part where it starts and the one it hits.
   Eigen::VectorXd s;
@@ -142,7 +146,7 @@ int main(int argc, char** argv) {
   lesson.step(
       "The fields theta_i",
       [&](std::ostream& out) {
-        cells = cells_inside(boundary, loops, 56);
+        cells = cells_inside(boundary, loops, lesson.quick() ? 28 : 56);
         fields.clear();
         out << "share of the solid, %, where 0, 1, 2, 3 parts count:\n";
         for (int v = 0; v < 3; ++v) {
@@ -188,7 +192,7 @@ int main(int argc, char** argv) {
       [&](Picture& picture) {
         picture.note("yellow: the cost w·Θw is small; dot: the library's w");
         draw_triangle(picture, parts, lesson.world(), X, w, [&](const Eigen::Vector3d& v) {
-          return 1 - std::log10(cost(v) / cost(w)) / 1.2;
+          return std::pair(1 - std::log10(cost(v) / cost(w)) / 1.2, reading("cost", cost(v)));
         });
       });
 
@@ -209,9 +213,6 @@ int main(int argc, char** argv) {
         draw_weights(picture, cells, dense(weights), weights.uncovered);
         draw_parts(picture, parts, "ABC");
         picture.note("the parts' colours mixed by w; pale: uncovered");
-      },
-      [&](const Vec<2>& at) {
-        return inside(boundary, loops, at) ? "w = " + list(dense(library_w(at, variant)), 3) : "";
       });
 
   // [6] On a part its own weight is 1 (Kronecker), so that the boundary follows its own polynomial.

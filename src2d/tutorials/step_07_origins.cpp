@@ -43,12 +43,6 @@ struct Group {
   VectorXd score;                  // #parts
 };
 
-std::string text(const Set& set) {
-  std::string list;
-  for (const int i : set) list += (list.empty() ? "" : " ") + std::to_string(i + 1);
-  return "{" + list + "}";
-}
-
 // Groups by falling area, and the group of each point.
 std::vector<Group> group(const BlendingWeights<2>& w, const Quadrature<2>& rule,
                          std::vector<int>& of_point) {
@@ -175,11 +169,7 @@ int main(int argc, char** argv) {
         out << table({"set", "mean, (4)", "with lengths, (4')", "centroid of its group"}, rows)
             << "library's - ours: " << error_text(difference) << "\n";
       },
-      [&](Picture& picture) {
-        std::vector<std::string> names;
-        for (const auto& set : origins.members) names.push_back(text(set));
-        draw_origins(picture, parts, origins.of_part, origins.position, names);
-      });
+      [&](Picture& picture) { draw_origins(picture, parts, origins); });
 
   // [4] t_i of part i is the mean of all parts j of its set: S_ij is the share of part j in it. If
   // the parts move by u_i with u = S u, then every polynomial is a translation and F = I: no
@@ -238,7 +228,9 @@ int main(int argc, char** argv) {
         out << "\nlargest F - I in the solid: " << error_text(strain, 1e-9) << "\n";
       },
       [&](Picture& picture) {
-        draw_groups(picture, (dense_value(body.interior) * z).transpose(), of_point);
+        const Points<2> x = (dense_value(body.interior) * z).transpose();
+        draw_groups(picture, x, of_point);
+        read_motion(picture, body.quadrature.position, x);
         Curves moved = parts;
         for (int i = 0; i < 8; ++i) moved[i].control_points = z.middleRows(2 * i, 2).transpose();
         draw_parts(picture, moved, "12345678");

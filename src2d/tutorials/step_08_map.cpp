@@ -13,8 +13,8 @@
 //   (14)    dF/dp = B: F = B p            scalar rows again, one for each direction of X
 //
 // Errata of the draft: (12) pulls Pi-hat out of the derivative as if w_i were constant; (14) lacks
-// w_i and E_i, and has d^2 |q| entries, not 3 |q|; (10) applies J(u, v) of one point where the rows
-// of all samples are needed. The columns of (14) that are near 0 may be pruned: prune() in map.h.
+// w_i and E_i, and has d^2 |q| entries, not 3 |q|; (10) applies J(u, v) of one point where all
+// samples' rows are needed. Columns of (14) that are near 0 may be pruned: prune() in map.h.
 //
 // Things to try: degree 1: how many motions are free? Drag p5 to p7 back to where they were: where
 // do the gradients still differ? A circle across one of the jumps of [4]: does (12') still close?
@@ -38,10 +38,10 @@ int main(int argc, char** argv) {
   const auto loops = find_loops(boundary);
   const auto samples = sample_boundary(boundary, {.points_per_span = 8});
   const auto rule = quadrature_on_rays(cast_rays(boundary, loops, {.n_rays = 40}), {.points = 20});
-  const auto cells = cells_inside(boundary, loops, 64);
+  const Cells grids[] = {cells_inside(boundary, loops, 64), cells_inside(boundary, loops, 28)};
+  const auto cells = [&]() -> const Cells& { return grids[lesson.quick()]; };  // coarse in a drag
   const auto check_inside = [&](const std::string& name, const Vec<2>& X) {
-    if (!inside(boundary, loops, X))
-      throw InputError("", name, list(X), "inside the solid at rest");
+    if (!inside(boundary, loops, X)) throw InputError("", name, list(X), "inside the rest solid");
   };
 
   // Steps 5 to 7 in the library's words.
@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
     const auto published = DistanceWeight::published;
     const auto distances = measure_distances(boundary, loops, X, published, alpha);
     auto theta = distance_weights(distances, {published, alpha});
-    if (with_gradient) distance_weight_gradients(boundary, X, distances, published, theta);
+    if (with_gradient) distance_weight_gradients(boundary, X, distances, theta);
     return blending_weights(theta, boundary, X);
   };
   // Gamma and B; given grad w, blended_map returns B of (12'), else that of (12).
@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
             << ", sum - 1: " << error_text(row.sum() - 1) << "\n";
       },
       [&](Picture& picture) {
-        draw_squares(picture, cells, x_at(cells.center, z), 0.25);
+        draw_squares(picture, cells(), x_at(cells().center, z), 0.25);
         draw_opinions(picture, p, row, opinions, x);
       });
 
@@ -123,13 +123,13 @@ int main(int argc, char** argv) {
         const Vec<2> b(0.1, -0.2);
         affine = (A * p0).colwise() + b;
         const Points<2> q = controls_of(affine),
-                        error = x_at(cells.center, q) - ((A * cells.center).colwise() + b);
+                        error = x_at(cells().center, q) - ((A * cells().center).colwise() + b);
         out << "x - (A X + b): " << error_text(error.cwiseAbs().maxCoeff(), 1e-9)
             << ", F - A by (12): " << error_text((F_at(X, q, false) - A).norm(), 1e-9)
             << ", by (12'): " << error_text((F_at(X, q, true) - A).norm(), 1e-9) << "\n";
       },
       [&](Picture& picture) {
-        draw_squares(picture, cells, x_at(cells.center, controls_of(affine)), 0.5);
+        draw_squares(picture, cells(), x_at(cells().center, controls_of(affine)), 0.5);
         draw_parts(picture, parts, "", 1.5);
         draw_parts(picture, three_curves(affine), "ABC");
         picture.note("thin: at rest; its squares of 0.5 m become equal parallelograms");
@@ -154,11 +154,13 @@ int main(int argc, char** argv) {
 
   // [4] They differ by sum_i x_i (x) grad w_i: where weights change and the parts disagree.
   VectorXd apart;
+  const Cells* grid = nullptr;
   lesson.step(
       "Where the two gradients differ",
       [&](std::ostream& out) {
-        const auto diffuse = map_at(cells.center, false), exact = map_at(cells.center, true);
-        apart = VectorXd::Zero(cells.center.cols());
+        grid = &cells();
+        const auto diffuse = map_at(grid->center, false), exact = map_at(grid->center, true);
+        apart = VectorXd::Zero(grid->center.cols());
         for (int b = 0; b < 2; ++b) {
           const MatrixXd D = dense_gradient(diffuse, b) - dense_gradient(exact, b);
           apart += (D * z.transpose()).rowwise().squaredNorm();
@@ -169,10 +171,9 @@ int main(int argc, char** argv) {
             << rounded(100 * (apart.array() > 0.5).cast<double>().mean(), 2) << " % of the solid\n";
       },
       [&](Picture& picture) {
-        draw_cells(picture, cells, [&](int k) { return colors::viridis(apart[k]); });
+        draw_field(picture, *grid, apart, "|F (12) − F (12')|");
         draw_parts(picture, parts, "ABC");
-        color_bar(picture, picture.part({0.02, 0.02}, {1, 1}).lower, "|F (12) − F (12')| = 0",
-                  "1 or more");
+        color_bar(picture, "|F (12) − F (12')| = 0", "1 or more");
       });
 
   // [5] A gradient adds up: the sum of F dX around a closed curve is 0. With (12) one ends
@@ -237,9 +238,8 @@ int main(int argc, char** argv) {
         soft = (tie * v).reshaped(2, 12);
       },
       [&](Picture& picture) {
-        Points<2> moved = x_at(cells.center, soft);
-        draw_squares(picture, cells, cells.center + 0.4 / moved.cwiseAbs().maxCoeff() * moved,
-                     0.25);
+        const Points<2> u = x_at(cells().center, soft);
+        draw_squares(picture, cells(), cells().center + 0.4 / u.cwiseAbs().maxCoeff() * u, 0.25);
         draw_parts(picture, parts, "", 1.5);
         picture.note("(12) sees " + rounded(100 * energy[0] / energy[1], 2) +
                      " % of the energy of this motion; squares of 0.25 m at rest");

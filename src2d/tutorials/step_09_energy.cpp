@@ -85,8 +85,8 @@ int main(int argc, char** argv) {
                      column(stretches, 0), by_stretch, names,
                      picture.part({0, 0.03}, {0.49, 0.98}));
         draw_columns(picture, {.label = "rotation, degrees"},
-                     {.label = "Ψ / E", .lower = 0, .upper = 3}, column(angles, 0), by_angle, names,
-                     picture.part({0.5, 0.03}, {0.99, 0.98}));
+                     {.label = "Ψ / E", .lower = -0.1, .upper = 3}, column(angles, 0), by_angle,
+                     names, picture.part({0.5, 0.03}, {0.99, 0.98}));
       });
 
   // [2] P = dPsi/dF and dP/dF at that F, one entry after the other.
@@ -167,9 +167,9 @@ int main(int argc, char** argv) {
           picture.dot(x.col(k), colors::viridis(psi[k] / most), 11, MarkerShape::square);
         draw_parts(picture, three_curves(p0), "", 1);
         draw_parts(picture, three_curves(p), "ABC");
-        color_bar(picture, picture.part({0.02, 0.02}, {1, 1}).lower, "Ψ / E = 0", rounded(most, 2));
-      },
-      [&](const Vec<2>& X) { return value_near(evaluate(body.interior, z), psi, X, "Ψ / E"); });
+        color_bar(picture, "Ψ / E = 0", rounded(most, 2));
+        read_values(picture, x, psi, "Ψ / E");
+      });
   // [4] (19): every point pulls at the control points that its row of B knows.
   VectorXd g;
   lesson.step(

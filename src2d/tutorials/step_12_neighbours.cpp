@@ -97,7 +97,7 @@ Map<2> skinning_map(const Beam& beam, const Points<2>& X) {
   const auto distances =
       measure_distances(d.boundary, d.loops, X, variant, d.options.weights.cutoff);
   auto theta = distance_weights(distances, d.options.weights);
-  distance_weight_gradients(d.boundary, X, distances, variant, theta);
+  distance_weight_gradients(d.boundary, X, distances, theta);
   const int n_parts = d.boundary.n_parts();
   return blended_map(X, blending_weights(theta, d.boundary, X), d.origins, frames(n_parts),
                      3 * n_parts, true);

@@ -22,14 +22,12 @@
 
 #include "sem/base/error.h"
 #include "sem/lesson/lesson.h"
-#include "sem/lesson/part_canvas.h"
 #include "sem/scene/accuracy.h"
 #include "sem/scene/analysis.h"
 #include "sem/scene/estimate.h"
 #include "sem/scene/monitor.h"
 #include "sem/scene/read_scene.h"
 #include "sem/scene/run.h"
-#include "src2d/picture/frame.h"
 #include "src2d/scenes/builtin.h"
 #include "src2d/shapes/shape_fields.h"
 #include "src2d/tutorials/pictures.h"
@@ -80,11 +78,13 @@ int main(int argc, char** argv) {
           const Points<2>& p = part.shape.control_points;
           picture.curve(p, {.color = part_colors[i], .width = 2});
           picture.dots(p, colors::gray, 10);
+          picture.hover(p, [=](int k) { return part.name + ": " + coordinates(p.col(k)) + " m"; });
           picture.label(p.col(p.cols() / 2), part.name, part_colors[i++], {14, 0}, 22);
         }
         for (const auto& probe : scene.probes) {
           picture.dot(probe.at, colors::black, 18, MarkerShape::cross);
-          picture.label(probe.at, "probe " + probe.name, colors::black, {0, 26});
+          const double right = probe.at[0] < 1 ? -18 : 18;
+          picture.label(probe.at, "probe " + probe.name, colors::black, {right, 8});
         }
         picture.note("control points of the three parts, and the probes");
       });
@@ -215,8 +215,7 @@ int main(int argc, char** argv) {
         out << "step " << shown << ", t = " << rounded(states[shown].time, 3) << " s\n";
       },
       [&](Picture& picture) {
-        PartCanvas part(picture.canvas(), picture.area());
-        FramePainter(scene).draw(part, *model, states[shown]);
+        draw_frame(picture, scene, *model, states[shown]);  // FramePainter(scene).draw()
       });
 
   // [6] The same by one call, and how far to trust it: the run repeated with one setting changed.

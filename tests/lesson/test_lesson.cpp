@@ -162,3 +162,29 @@ TEST_CASE("an enumeration is chosen by name") {
   lesson.reset();
   CHECK(rule == Rule::draft);
 }
+
+TEST_CASE("what a step computed coarsely while changes were quick runs again when they end") {
+  double a = 1;
+  int n = 0;
+  Lesson lesson("Quick", {{0, 0}, {1, 1}});
+  lesson.slider("a", a, 0, 9);
+  lesson.step(
+      "First", [](std::ostream& out) { out << "first"; }, [](Picture&) {});
+  lesson.step(
+      "Second", [&](std::ostream&) { n = lesson.quick() ? 3 : 9; }, [](Picture&) {});
+  lesson.show(1);
+  CHECK(n == 9);
+  CHECK(!lesson.coarse());
+  lesson.set_quick(true);
+  lesson.change(find(lesson, "a"), {2, 0});
+  CHECK(n == 3);
+  CHECK(lesson.coarse());
+  lesson.set_quick(false);
+  lesson.refine();
+  CHECK(n == 9);
+  CHECK(!lesson.coarse());
+  CHECK(lesson.n_runs(0) == 2);  // never asked
+  CHECK(lesson.n_runs(1) == 3);
+  lesson.refine();
+  CHECK(lesson.n_runs(1) == 3);
+}

@@ -63,6 +63,9 @@ struct DimTraits<2> {
   static Vec<2> area_normal(const Eigen::Matrix<double, 2, 1>& tangents) {
     return {tangents(1, 0), -tangents(0, 0)};
   }
+  /// Gauss points per knot span and direction for what acts on the boundary of a condensed map, whose
+  /// weights have kinks there too.
+  static constexpr int boundary_points = 24;
   /// a x b: angular momentum has one component.
   static constexpr int n_rotations = 1;
   static Vec<1> cross(const Vec<2>& a, const Vec<2>& b) { return Vec<1>(a[0] * b[1] - a[1] * b[0]); }
@@ -81,6 +84,7 @@ struct DimTraits<3> {
     const Vec<3> du = tangents.col(0), dv = tangents.col(1);
     return du.cross(dv);
   }
+  static constexpr int boundary_points = 8;
   static constexpr int n_rotations = 3;
   static Vec<3> cross(const Vec<3>& a, const Vec<3>& b) { return a.cross(b); }
 };

@@ -99,7 +99,9 @@ void Lesson::show(int step) {
     for (int later = i; later < n_steps(); ++later) steps_[later].fresh = false;
     std::ostringstream out;
     ++s.n_runs;
+    asked_quick_ = false;
     s.compute(out);
+    s.coarse = quick_ && asked_quick_;
     s.numbers = out.str();
     s.fresh = true;
   }
@@ -153,13 +155,26 @@ Picture Lesson::draw(Canvas& canvas) const {
   Picture picture(canvas, {{0, 2 * margin + title_size}, {canvas.width(), canvas.height()}},
                   world_);
   s.draw(picture);
+  if (picture.has_view() && s.hover) picture.hover(s.hover);
   return picture;
 }
 
-std::string Lesson::hover(const Vec<2>& X) const {
-  if (current_ < 0 || !steps_[current_].fresh) return "";
-  if (steps_[current_].hover) return steps_[current_].hover(X);
-  return "x = " + rounded(X[0], 3) + ", y = " + rounded(X[1], 3);
+bool Lesson::quick() const {
+  asked_quick_ = true;
+  return quick_;
+}
+
+bool Lesson::coarse() const {
+  return std::any_of(steps_.begin(), steps_.end(), [](const Step& s) { return s.coarse; });
+}
+
+void Lesson::refine() {
+  bool stale = false;
+  for (auto& s : steps_) {
+    stale = stale || s.coarse;
+    if (stale) s.fresh = s.coarse = false;
+  }
+  if (stale && current_ >= 0) show(current_);
 }
 
 }  // namespace sem

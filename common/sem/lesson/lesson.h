@@ -8,7 +8,8 @@
 //     lesson.step("The curve and its control points",
 //                 [&](std::ostream& out) { ... compute; print the numbers with numbers.h ... },
 //                 [&](Picture& picture) { ... draw what was computed ... },
-//                 [&](const Vec<2>& X) { return "value at X: " + ...; });  // on hovering; optional
+//                 [&](const Vec<2>& X) { return "value at X: " + ...; });  // on hovering; or
+//                 hover()
 //     return lesson.run(argc, argv);
 //   }
 //
@@ -63,6 +64,8 @@ class Lesson {
   void handle(const std::string& name, Vec<2>& point, const std::string& help = "");
 
   /// The next step. `compute` may throw InputError for parameters that make no sense together.
+  /// `hover` is what the mouse reads in the picture's last view, as if given to Picture::hover
+  /// last.
   void step(const std::string& title, Compute compute, Draw draw, Hover hover = nullptr);
 
   /// The program: reads the arguments (--help lists them), then steps through. Returns the exit
@@ -95,10 +98,16 @@ class Lesson {
   const std::string& numbers(int step) const { return steps_[step].numbers; }
   int n_runs(int step) const { return steps_[step].n_runs; }
   bool fresh(int step) const { return steps_[step].fresh; }
-  /// Draws the current step with its title on a canvas and returns its view; the step is fresh.
+  /// Draws the current step with its title on a canvas and returns the picture, for its view and
+  /// texts; the step is fresh.
   Picture draw(Canvas& canvas) const;
-  /// The current step's hover text at a world position; its coordinates if the step has none.
-  std::string hover(const Vec<2>& X) const;
+
+  /// Changes are quick while the reader drags: a step that takes long asks quick() and computes
+  /// coarser. coarse(): whether a step did; refine() runs it and the later ones again.
+  void set_quick(bool quick) { quick_ = quick; }
+  bool quick() const;
+  bool coarse() const;
+  void refine();
 
  private:
   struct Step {
@@ -108,7 +117,7 @@ class Lesson {
     Hover hover;
     std::string numbers = {};
     int n_runs = 0;
-    bool fresh = false;
+    bool fresh = false, coarse = false;
   };
   void add(Parameter parameter);
 
@@ -118,6 +127,8 @@ class Lesson {
   std::vector<Parameter> parameters_;
   std::vector<Vec<2>> defaults_;
   int current_ = -1;
+  bool quick_ = false;
+  mutable bool asked_quick_ = false;  ///< by the step that runs
 };
 
 template <class Enum>

@@ -22,10 +22,11 @@ class PartCanvas : public Canvas {
   void image(const Image& image, const Box<2>& rectangle) override;
   void push_clip(const Box<2>& rectangle) override;
   void pop_clip() override;
+  /// From this canvas to the whole one.
+  Box<2> moved(const Box<2>& box) const { return {box.lower + origin_, box.upper + origin_}; }
 
  private:
   Polyline moved(std::span<const Vec<2>> points) const;
-  Box<2> moved(const Box<2>& box) const { return {box.lower + origin_, box.upper + origin_}; }
 
   Canvas& whole_;
   Vec<2> origin_, size_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sem/lesson/numbers.h"
 #include "sem/lesson/part_canvas.h"
 #include "sem/plot/plot.h"
 
@@ -13,6 +14,11 @@ std::vector<Vec<2>> columns(const Points<2>& points) {
   list.reserve(points.cols());
   for (int i = 0; i < points.cols(); ++i) list.push_back(points.col(i));
   return list;
+}
+
+Vec<2> unmap(const View2& view, const Vec<2>& pixel) {
+  const Vec<2> d = (pixel - view.map({0, 0})) / view.scale();
+  return {d[0], -d[1]};
 }
 
 }  // namespace
@@ -38,10 +44,7 @@ const View2& Picture::view() {
   return view_;
 }
 
-Vec<2> Picture::to_world(const Vec<2>& pixel) const {
-  const Vec<2> d = (pixel - view_.map({0, 0})) / view_.scale();
-  return {d[0], -d[1]};
-}
+Vec<2> Picture::to_world(const Vec<2>& pixel) const { return unmap(view_, pixel); }
 
 void Picture::curve(const Points<2>& points, const Stroke& stroke) {
   const auto list = columns(points);
@@ -124,6 +127,38 @@ void Picture::plot(const Box<2>& rectangle, const std::function<void(Plot& plot)
   Plot plot(part.width() / dots_per_inch, part.height() / dots_per_inch);
   describe(plot);
   plot.draw(part);
+}
+
+void Picture::hover(const TextAt& text) {
+  hover(view_area_,
+        [text, view = view()](const Vec<2>& pixel) { return text(unmap(view, pixel)); });
+}
+
+void Picture::hover(const Box<2>& rectangle, TextAt text) {
+  texts_.emplace_back(rectangle, std::move(text));
+}
+
+void Picture::hover(const Points<2>& points, std::function<std::string(int)> text) {
+  constexpr double reach = 40;
+  if (points.cols() == 0) return;
+  hover([points, text = std::move(text), most = reach / view().scale()](const Vec<2>& X) {
+    int k = 0;
+    const double square = (points.colwise() - X).colwise().squaredNorm().minCoeff(&k);
+    return square < most * most ? text(k) : "";
+  });
+}
+
+std::string Picture::text_at(const Vec<2>& pixel) const {
+  const auto in = [&](const Box<2>& box) {
+    return (pixel.array() >= box.lower.array()).all() && (pixel.array() <= box.upper.array()).all();
+  };
+  for (auto it = texts_.rbegin(); it != texts_.rend(); ++it) {
+    const std::string found = in(it->first) ? it->second(pixel) : "";
+    if (!found.empty()) return found;
+  }
+  if (!view_used_ || !in(view_area_)) return "";
+  const Vec<2> X = to_world(pixel);
+  return "x = " + rounded(X[0], 3) + ", y = " + rounded(X[1], 3);
 }
 
 void Picture::note(const std::string& text, int row, const Color& color) {

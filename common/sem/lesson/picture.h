@@ -19,8 +19,8 @@ class Plot;
 /// draws in pixels, e.g. plots. Widths, sizes and offsets are pixels always. Default sizes are
 /// legible where a picture of 900 x 600 pixels is shown at 100 %.
 ///
-/// A picture is hoverable and its handles can be dragged where its *last* view is: a step that only
-/// uses canvas() (plots) has none of that.
+/// Handles can be dragged where its *last* view is: a step that only uses canvas() (plots) has
+/// none. The mouse reads what hover() was given, wherever that is.
 class Picture {
  public:
   static constexpr double text_size = 17;  ///< em in pixels
@@ -71,6 +71,19 @@ class Picture {
   /// A plot with axes (sem/plot/plot.h) in a rectangle in pixels: `describe` adds its panels. It is
   /// drawn at 144 dots per inch, so that its lettering is as large as that of the other functions.
   void plot(const Box<2>& rectangle, const std::function<void(Plot& plot)>& describe);
+
+  // What the mouse reads: a short text, or "" for nothing. Of several the one given last that has
+  // something to say counts; else, in the last view, it reads its coordinates. The functions
+  // outlive the drawing: they own what they use, or use the variables of a step's compute.
+  using TextAt = std::function<std::string(const Vec<2>& at)>;
+  /// By world position, in the present view's area.
+  void hover(const TextAt& text);
+  /// By pixel, in a rectangle.
+  void hover(const Box<2>& rectangle, TextAt text);
+  /// By the column of `points` (world) that is nearest to the mouse, within 40 pixels.
+  void hover(const Points<2>& points, std::function<std::string(int column)> text);
+  std::string text_at(const Vec<2>& pixel) const;
+
   /// One line of text in pixels at the top of the area (row 0, 1, ...), left-aligned.
   void note(const std::string& text, int row = 0, const Color& color = colors::black);
 
@@ -79,6 +92,7 @@ class Picture {
   Box<2> area_, view_area_;
   View2 view_;
   bool view_used_ = false;
+  std::vector<std::pair<Box<2>, TextAt>> texts_;
 };
 
 }  // namespace sem

@@ -36,7 +36,7 @@ struct Workbench::Impl {
   ImguiScreen screen{width, height};
   RasterCanvas fine{picture_width, picture_height, 2}, quick{picture_width, picture_height, 1};
   Image picture;
-  std::optional<Picture> drawn;  // view of the picture; none while the step has an error
+  std::optional<Picture> drawn;  // the picture's view and texts; none while the step has an error
   bool outdated = true;          // the picture
   bool drawn_quick = false;
   double compute_seconds = 0, draw_seconds = 0;
@@ -150,6 +150,7 @@ struct Workbench::Impl {
       if (p.kind != Kind::choice || !ImGui::IsPopupOpen(p.name.c_str())) place(p.name);
       if (!p.help.empty() && ImGui::IsItemHovered() && !ImGui::IsItemActive())
         ImGui::SetTooltip("%s (step %d)", p.help.c_str(), p.step + 1);
+      lesson.set_quick(ImGui::IsItemActive());
       if (changed) act([&] { lesson.change(p, value); });
     }
   }
@@ -240,6 +241,7 @@ struct Workbench::Impl {
     // Few decimals, about half a pixel, so that --set can repeat the value.
     const double unit = std::pow(10, std::ceil(std::log10(2 * drawn->view().scale())));
     const Vec<2> X = drawn->to_world(target - Vec<2>(panel_width, 0));
+    lesson.set_quick(true);
     act([&] { lesson.change(p, (X * unit).array().round() / unit); });
   }
 
@@ -285,22 +287,18 @@ struct Workbench::Impl {
     const bool hovered = ImGui::IsItemHovered();
     drag(input.mouse, input.button && !was_down && hovered, input.button);
     const bool moving = input.button && (dragged >= 0 || ImGui::IsAnyItemActive());
+    lesson.set_quick(moving);
+    if (!moving && lesson.coarse()) act([&] { lesson.refine(); });
     if (outdated || (drawn_quick && !moving)) draw_picture(moving);
     screen.activate();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddImage(screen.picture_id(), {panel_width, 0}, {width, height});
     rings(input.mouse);
     hover_text.clear();
-    if (hovered && drawn && drawn->has_view()) hover(input.mouse - Vec<2>(panel_width, 0));
+    if (hovered && drawn && error.empty())
+      hover_text = drawn->text_at(input.mouse - Vec<2>(panel_width, 0));
     ImGui::End();
     if (!hover_text.empty()) ImGui::SetTooltip("%s", hover_text.c_str());
-  }
-
-  void hover(const Vec<2>& pixel) {
-    const Box<2>& box = drawn->view_area();
-    if ((pixel.array() < box.lower.array()).any() || (pixel.array() > box.upper.array()).any())
-      return;
-    hover_text = lesson.hover(drawn->to_world(pixel));
   }
 
   const Image& frame(const Input& input) {

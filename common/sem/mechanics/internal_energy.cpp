@@ -11,8 +11,9 @@ using Eigen::VectorXd;
 
 template <int Dim>
 InternalEnergy<Dim>::InternalEnergy(const Map<Dim>& map, const VectorXd& weight,
-                                    const MaterialField& materials, const MatrixXd& stability)
-    : map_(map), weight_(weight), materials_(materials), stability_(stability), work_(map.blocks.size()),
+                                    const MaterialField& materials, const MatrixXd& stability,
+                                    Clamps<Dim> clamps)
+    : map_(map), weight_(weight), materials_(materials), stability_(stability), clamps_(std::move(clamps)), work_(map.blocks.size()),
       stability_force_(Dim, map.n_columns) {
   quadratic_ = std::all_of(materials_.of_point.begin(), materials_.of_point.end(), [&](int m) {
     return is_quadratic(materials_.materials[m].model);
@@ -69,7 +70,8 @@ double InternalEnergy<Dim>::stability_energy(const VectorXd& z) {
 
 template <int Dim>
 double InternalEnergy<Dim>::energy(const VectorXd& z) {
-  return elastic_energy(z) + stability_energy(z);
+  const double body = elastic_energy(z) + stability_energy(z);
+  return clamps_.empty() ? body : body + clamps_.energy(z);
 }
 
 template <int Dim>
@@ -90,6 +92,7 @@ void InternalEnergy<Dim>::gradient(const VectorXd& z, VectorXd& g) {
     for (int b = 0; b < Dim; ++b) work.nodes.noalias() += work.F[b] * block.gradient[b];
     for (size_t j = 0; j < block.columns.size(); ++j) out.col(block.columns[j]) += work.nodes.col(j);
   }
+  if (!clamps_.empty()) clamps_.add_gradient(z, g);
 }
 
 template <int Dim>
@@ -129,6 +132,7 @@ void InternalEnergy<Dim>::hessian(const VectorXd& z, bool psd, MatrixXd& H) {
           }
       }
   }
+  if (!clamps_.empty()) clamps_.add_hessian(z, psd, H);
 }
 
 template class InternalEnergy<2>;

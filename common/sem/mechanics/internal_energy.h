@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "sem/mechanics/material.h"
+#include "sem/mechanics/clamps.h"
 #include "sem/method/map.h"
 #include "sem/solve/system.h"
 
@@ -27,9 +27,9 @@ template <int Dim>
 class InternalEnergy : public Potential {
  public:
   /// map: B at the quadrature points (kept by reference); weight: v_k;
-  /// stability: gamma S, scalar, n_columns by n_columns, Pa (2D) or Pa m.
+  /// stability: gamma S, scalar, n_columns by n_columns, Pa (2D) or Pa m. clamps: V_D, added to V.
   InternalEnergy(const Map<Dim>& map, const Eigen::VectorXd& weight, const MaterialField& materials,
-                 const Eigen::MatrixXd& stability);
+                 const Eigen::MatrixXd& stability, Clamps<Dim> clamps = {});
 
   int size() const override { return Dim * map_.n_columns; }
   double energy(const Eigen::VectorXd& z) override;
@@ -38,7 +38,7 @@ class InternalEnergy : public Potential {
   /// True if every material in use is linear.
   bool quadratic() const override { return quadratic_; }
 
-  /// The two summands of V, J.
+  /// The summands of V, J, without that of the clamps.
   double elastic_energy(const Eigen::VectorXd& z);
   double stability_energy(const Eigen::VectorXd& z);
 
@@ -58,6 +58,7 @@ class InternalEnergy : public Potential {
   Eigen::VectorXd weight_;
   MaterialField materials_;
   Eigen::MatrixXd stability_;
+  Clamps<Dim> clamps_;
   bool quadratic_;
   std::vector<Workspace> work_;
   Points<Dim> stability_force_;  // Dim by n_columns

@@ -1,6 +1,5 @@
 #include "sem/mechanics/loads.h"
 
-#include "sem/nurbs/basis.h"
 
 namespace sem {
 namespace {
@@ -13,13 +12,6 @@ void add_forces(const Map<Dim>& map, const Points<Dim>& forces, Eigen::VectorXd&
     for (size_t j = 0; j < block.columns.size(); ++j)
       f.template segment<Dim>(Dim * block.columns[j]) += local.col(j);
   }
-}
-
-template <int Dim>
-Vec<Dim> outward_normal(const Discretization<Dim>& d, int part, const Param<Dim - 1>& u) {
-  const auto at = derivatives(d.boundary.parts[part].nurbs, u, 1);
-  const Vec<Dim> normal = DimTraits<Dim>::area_normal(at.first);
-  return d.loops.orientation[part] * normal / std::max(normal.norm(), 1e-300);
 }
 
 }  // namespace
@@ -38,15 +30,13 @@ void add_point_force(const Discretization<Dim>& d, const Vec<Dim>& at, const Vec
 
 template <int Dim>
 double add_traction(const Discretization<Dim>& d, const Traction<Dim>& traction, Eigen::VectorXd& f) {
-  int highest = 1;
-  for (const auto& part : d.boundary.parts)
-    for (const int degree : part.nurbs.degree) highest = std::max(highest, degree);
-  const Samples<Dim> samples = sample_boundary(d.boundary, {highest + 5, SampleWeight::measure});
+  const BoundaryRule<Dim> rule = boundary_rule(d);
+  const Samples<Dim>& samples = rule.samples;
   double loaded = 0;
   Points<Dim> forces(Dim, samples.size());
   for (int s = 0; s < samples.size(); ++s) {
     const int part = samples.part[s];
-    const Vec<Dim> t = traction(part, samples.position.col(s), outward_normal(d, part, samples.u[s]));
+    const Vec<Dim> t = traction(part, samples.position.col(s), rule.normal.col(s));
     forces.col(s) = samples.weight[s] * t;
     if (!t.isZero(0)) loaded += samples.weight[s];
   }

@@ -20,7 +20,7 @@ void add_point_force(const Discretization<Dim>& discretization, const Vec<Dim>& 
 
 /// Traction on the boundary in N/m^(Dim-1) of rest boundary, from the rest
 /// position, the part and its outward unit normal; acts on the map. Integrated
-/// with NURBS degree + 5 Gauss-Lobatto points per knot span.
+/// by boundary_rule.
 template <int Dim>
 using Traction = std::function<Vec<Dim>(int part, const Vec<Dim>& X, const Vec<Dim>& normal)>;
 /// Returns the rest measure of the boundary on which the traction is not zero.

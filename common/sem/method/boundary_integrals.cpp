@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sem/method/line_rules.h"
+#include "sem/method/monomials.h"
 #include "sem/nurbs/basis.h"
 
 namespace sem {
@@ -10,10 +11,13 @@ namespace {
 
 constexpr int n_gauss = 32;
 
-// Adds sign * flux of the primitives (along X_0) through a box of parameters.
 template <int Dim>
-void add_flux(const Nurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>& lower,
-              const Param<Dim - 1>& upper, int sign, const Vec<Dim>& center, Moments<Dim>& out) {
+using FluxVisitor = std::function<void(const Vec<Dim>& X, double flux)>;
+
+// Visits the Gauss points of a box of parameters with sign * flux of the first unit vector.
+template <int Dim>
+void visit_box(const Nurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>& lower,
+               const Param<Dim - 1>& upper, int sign, const FluxVisitor<Dim>& visit) {
   static const LineRule rule = gauss_legendre(n_gauss);
   int n = 1;
   for (int a = 0; a < Dim - 1; ++a) n *= n_gauss;
@@ -26,15 +30,7 @@ void add_flux(const Nurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>& lower,
       weight *= half * rule.weight[rest % n_gauss];
     }
     const auto at = derivatives(shape, u, 1);
-    const Vec<Dim> x = at.point - center;
-    const double flux = weight * DimTraits<Dim>::area_normal(at.first)[0];
-    // Primitive along X_0 of X_0^m (rest): X_0^(m+1)/(m+1) (rest).
-    out.volume += flux * x[0];
-    for (int i = 0; i < Dim; ++i) {
-      out.first[i] += flux * x[0] * x[i] / (i == 0 ? 2 : 1);
-      for (int j = 0; j < Dim; ++j)
-        out.second(i, j) += flux * x[0] * x[i] * x[j] / (1 + (i == 0) + (j == 0));
-    }
+    visit(at.point, weight * DimTraits<Dim>::area_normal(at.first)[0]);
   }
 }
 
@@ -61,9 +57,9 @@ double change(const Boundary<2>& boundary, const Loops<2>& loops, const Prepared
   return (a + b) / 2;
 }
 
-// A curve of which only some stretches bound the body.
-void add_visible(const Boundary<2>& boundary, const Loops<2>& loops,
-                 const PreparedNurbs<1, 2>& shape, const Vec<2>& center, Moments<2>& out) {
+// A curve of which only some stretches bound the body. Returns whether that can be told.
+bool visit_visible(const Boundary<2>& boundary, const Loops<2>& loops,
+                   const PreparedNurbs<1, 2>& shape, const FluxVisitor<2>& visit) {
   constexpr int n_scan = 64;
   for (const auto& piece : shape.pieces) {
     double begin = piece.lower[0], previous = begin;
@@ -74,21 +70,22 @@ void add_visible(const Boundary<2>& boundary, const Loops<2>& loops,
       if (k > 0 && here != previous_side) {
         const double end = change(boundary, loops, shape, previous, u);
         if (previous_side != 0)
-          add_flux<2>(shape.nurbs, Param<1>(begin), Param<1>(end), previous_side, center, out);
+          visit_box<2>(shape.nurbs, Param<1>(begin), Param<1>(end), previous_side, visit);
         begin = end;
       }
       previous = u;
       previous_side = here;
     }
     if (previous_side != 0)
-      add_flux<2>(shape.nurbs, Param<1>(begin), piece.upper, previous_side, center, out);
+      visit_box<2>(shape.nurbs, Param<1>(begin), piece.upper, previous_side, visit);
   }
+  return true;
 }
 
 // Surfaces that overlap other solids would have to be trimmed first.
-void add_visible(const Boundary<3>&, const Loops<3>&, const PreparedNurbs<2, 3>&, const Vec<3>&,
-                 Moments<3>& out) {
-  out.available = false;
+bool visit_visible(const Boundary<3>&, const Loops<3>&, const PreparedNurbs<2, 3>&,
+                   const FluxVisitor<3>&) {
+  return false;
 }
 
 template <int Dim>
@@ -132,18 +129,17 @@ Crowding<Dim> find_crowding(const Boundary<Dim>& boundary, const Loops<Dim>& loo
 }  // namespace
 
 template <int Dim>
-Moments<Dim> boundary_moments(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
-                              const Vec<Dim>& about) {
-  Moments<Dim> moments;
-  const Vec<Dim> center = (boundary.box.lower + boundary.box.upper) / 2;
+bool visit_boundary_flux(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
+                         const FluxVisitor<Dim>& visit) {
+  bool available = true;
   const Crowding<Dim> crowding = find_crowding(boundary, loops);
   const auto add = [&](const PreparedNurbs<Dim - 1, Dim>& shape, int loop, int sign) {
     if (crowding.crowded[loop]) {
-      add_visible(boundary, loops, shape, center, moments);
+      available &= visit_visible(boundary, loops, shape, visit);
     } else {
-      if (sign == 0) moments.available = false;
+      if (sign == 0) available = false;
       for (const auto& piece : shape.pieces)
-        add_flux<Dim>(shape.nurbs, piece.lower, piece.upper, sign, center, moments);
+        visit_box<Dim>(shape.nurbs, piece.lower, piece.upper, sign, visit);
     }
   };
   for (int i = 0; i < boundary.n_parts(); ++i)
@@ -151,11 +147,50 @@ Moments<Dim> boundary_moments(const Boundary<Dim>& boundary, const Loops<Dim>& l
   for (int c = 0; c < int(loops.caps.size()); ++c)
     if (loops.cap_length[c] > boundary.tolerance())
       add(loops.caps[c], crowding.loop_of_cap[c], loops.cap_orientation[c]);
+  return available;
+}
+
+template <int Dim>
+Moments<Dim> boundary_moments(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
+                              const Vec<Dim>& about) {
+  Moments<Dim> moments;
+  const Vec<Dim> center = (boundary.box.lower + boundary.box.upper) / 2;
+  moments.available =
+      visit_boundary_flux<Dim>(boundary, loops, [&](const Vec<Dim>& X, double flux) {
+        const Vec<Dim> x = X - center;
+        // Primitive along X_0 of X_0^m (rest): X_0^(m+1)/(m+1) (rest).
+        moments.volume += flux * x[0];
+        for (int i = 0; i < Dim; ++i) {
+          moments.first[i] += flux * x[0] * x[i] / (i == 0 ? 2 : 1);
+          for (int j = 0; j < Dim; ++j)
+            moments.second(i, j) += flux * x[0] * x[i] * x[j] / (1 + (i == 0) + (j == 0));
+        }
+      });
   // From the center of the box to the point asked for.
   const Vec<Dim> shift = center - about;
   moments.second += moments.first * shift.transpose() + shift * moments.first.transpose() +
                     moments.volume * shift * shift.transpose();
   moments.first += moments.volume * shift;
+  return moments;
+}
+
+template <int Dim>
+std::optional<Eigen::VectorXd> boundary_moments_to_degree(const Boundary<Dim>& boundary,
+                                                          const Loops<Dim>& loops, int degree,
+                                                          const Vec<Dim>& center, double size) {
+  const Monomials<Dim> monomials(degree);
+  Eigen::VectorXd moments = Eigen::VectorXd::Zero(1 + monomials.size());
+  Eigen::RowVectorXd values(monomials.size());
+  const bool available =
+      visit_boundary_flux<Dim>(boundary, loops, [&](const Vec<Dim>& X, double flux) {
+        const Vec<Dim> xi = (X - center) / (size / 2);
+        const double primitive = flux * (X - center)[0];
+        monomials.values(xi, values);
+        moments[0] += primitive;
+        for (int m = 0; m < monomials.size(); ++m)
+          moments[1 + m] += primitive * values[m] / (monomials.exponent(m)[0] + 1);
+      });
+  if (!available) return {};
   return moments;
 }
 
@@ -170,6 +205,14 @@ Moments<Dim> quadrature_moments(const Points<Dim>& position, const Eigen::Vector
   return moments;
 }
 
+template bool visit_boundary_flux<2>(const Boundary<2>&, const Loops<2>&, const FluxVisitor<2>&);
+template bool visit_boundary_flux<3>(const Boundary<3>&, const Loops<3>&, const FluxVisitor<3>&);
+template std::optional<Eigen::VectorXd> boundary_moments_to_degree<2>(const Boundary<2>&,
+                                                                      const Loops<2>&, int,
+                                                                      const Vec<2>&, double);
+template std::optional<Eigen::VectorXd> boundary_moments_to_degree<3>(const Boundary<3>&,
+                                                                      const Loops<3>&, int,
+                                                                      const Vec<3>&, double);
 template Moments<2> boundary_moments<2>(const Boundary<2>&, const Loops<2>&, const Vec<2>&);
 template Moments<3> boundary_moments<3>(const Boundary<3>&, const Loops<3>&, const Vec<3>&);
 template Moments<2> quadrature_moments<2>(const Points<2>&, const Eigen::VectorXd&, const Vec<2>&);

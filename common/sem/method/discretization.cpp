@@ -3,6 +3,8 @@
 #include <chrono>
 
 #include "sem/base/error.h"
+#include "sem/method/resolved_rule.h"
+#include "sem/method/sided_weight.h"
 
 namespace sem {
 namespace {
@@ -12,17 +14,120 @@ template <class Stage>
 auto timed(std::vector<StageCost>& cost, const char* name, const Stage& stage) {
   const auto start = std::chrono::steady_clock::now();
   auto result = stage();
-  cost.push_back({name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+  cost.push_back(
+      {name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
   return result;
 }
 
 template <int Dim>
-DistanceWeights<Dim> measure_theta(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
-                                   const Points<Dim>& position, const WeightOptions& options,
-                                   int n_threads) {
-  const double longest = options.sparsity ? std::numeric_limits<double>::infinity() : options.cutoff;
-  return distance_weights(
-      measure_distances(boundary, loops, position, options.variant, longest, n_threads), options);
+struct Theta {
+  Distances<Dim> distances;
+  DistanceWeights<Dim> theta;
+};
+
+template <int Dim>
+Theta<Dim> measure_theta(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
+                         const std::vector<CornerPatch<Dim>>& corners, const Points<Dim>& position,
+                         const MethodOptions& options) {
+  const double longest =
+      options.weights.sparsity ? std::numeric_limits<double>::infinity() : options.weights.cutoff;
+  auto distances = measure_distances(boundary, loops, position, options.weights.variant, longest,
+                                     options.n_threads);
+  auto theta = distance_weights(distances, options.weights);
+  if (options.formulation == Formulation::condensed)
+    distance_weight_gradients(boundary, position, distances, theta);
+  add_corners(corners, position, theta);
+  return {std::move(distances), std::move(theta)};
+}
+
+// The paper's formulation: origins, projection, control points as unknowns.
+template <int Dim>
+void project_controls(Discretization<Dim>& d) {
+  d.origins = timed(d.cost, "origins", [&] {
+    return choose_origins(d.options.origins, d.weights, d.quadrature.weight, d.samples);
+  });
+  d.projection = timed(d.cost, "projection",
+                       [&] { return project(d.samples, d.origins, d.options.projection); });
+  d.unknowns = control_point_unknowns(d.boundary);
+}
+
+// The condensed one: the coefficients are the unknowns.
+template <int Dim>
+void choose_coefficients(Discretization<Dim>& d) {
+  auto free = timed(d.cost, "coefficients", [&] {
+    return free_coefficients(d.quadrature.position, d.quadrature.weight, d.weights,
+                             d.options.projection.degree);
+  });
+  d.origins = std::move(free.origins);
+  d.projection = std::move(free.projection);
+  d.unknowns = std::move(free.unknowns);
+}
+
+template <int Dim>
+double correct_gradients(Discretization<Dim>& d) {
+  const BoundaryRule<Dim> rule = boundary_rule(d);
+  const Points<Dim> area = rule.normal * rule.samples.weight.asDiagonal();
+  const Map<Dim> map = map_at(d, rule.samples.position, false);
+  Points<Dim> flux = Points<Dim>::Zero(Dim, d.unknowns.size());
+  for (const auto& block : map.blocks)
+    flux(Eigen::all, block.columns) += area(Eigen::all, block.points) * block.value;
+  return satisfy_divergence_theorem(d.interior, d.quadrature.weight, flux);
+}
+
+// Patches with fewer points than twice the coefficients of a polynomial are left out.
+template <int Dim>
+void drop_unresolved_corners(Discretization<Dim>& d) {
+  const int needed = 2 * (Monomials<Dim>(d.options.projection.degree).size() + 1);
+  std::erase_if(d.corners, [&](const CornerPatch<Dim>& corner) {
+    const auto distance =
+        (d.quadrature.position.colwise() - corner.center).colwise().norm().array();
+    return (distance < corner.radius).count() < needed;
+  });
+}
+
+// What the interior rule has to resolve of every weight: w^2 and rho^2 |grad w|^2, rho the distance
+// to the part, at most a quarter of the cutoff: at the joint of two parts grad w grows like 1 /
+// distance, where their polynomials agree.
+template <int Dim>
+Indicators weight_indicators(const Discretization<Dim>& d, const Points<Dim>& position) {
+  const auto [distances, theta] =
+      measure_theta(d.boundary, d.loops, d.corners, position, d.options);
+  const auto weights = blending_weights(theta, d.boundary, position);
+  Indicators values;
+  values.n = 2 * theta.n_parts;
+  values.begin.push_back(0);
+  for (int k = 0; k < weights.n_points(); ++k) {
+    int pair = distances.begin[k];
+    for (int e = weights.begin[k]; e < weights.begin[k + 1]; ++e) {
+      const int i = weights.part[e];
+      while (pair < distances.begin[k + 1] && distances.part[pair] != i) ++pair;
+      const bool of_part = pair < distances.begin[k + 1];
+      const double rho = of_part ? std::min(distances.closest[pair], theta.cutoff / 4)
+                         : i < d.boundary.n_parts() ? 0
+                                                    : d.corners[i - d.boundary.n_parts()].radius;
+      if (!of_part) pair = distances.begin[k];
+      values.index.push_back(2 * i);
+      values.value.push_back(weights.w[e] * weights.w[e]);
+      if (weights.gradient.empty()) continue;
+      values.index.push_back(2 * i + 1);
+      values.value.push_back(rho * rho * weights.gradient[e].squaredNorm());
+    }
+    values.begin.push_back(int(values.index.size()));
+  }
+  return values;
+}
+
+template <int Dim>
+Quadrature<Dim> resolve_weights(Discretization<Dim>& d) {
+  ResolvedOptions options;
+  options.axis = d.options.rays.axis;
+  options.points = std::max(3, d.options.projection.degree + 1);
+  options.tolerance = d.options.interior_rule.weight_tolerance;
+  auto rule = resolved_rule<Dim>(
+      d.boundary, d.loops, [&](const Points<Dim>& X) { return weight_indicators(d, X); }, options,
+      d.options.n_threads);
+  d.interior_report.error = rule.error;
+  return std::move(rule.quadrature);
 }
 
 }  // namespace
@@ -35,45 +140,98 @@ Discretization<Dim> discretize(const std::vector<std::vector<Nurbs<Dim - 1, Dim>
   d.options = options;
   d.boundary = timed(d.cost, "parts", [&] { return make_boundary<Dim>(solids); });
   d.loops = timed(d.cost, "loops", [&] { return find_loops(d.boundary); });
-  d.samples = timed(d.cost, "boundary samples", [&] { return sample_boundary(d.boundary, options.sampling); });
-  d.rays = timed(d.cost, "rays", [&] { return cast_rays(d.boundary, d.loops, options.rays, n_threads); });
-  d.quadrature = timed(d.cost, "interior quadrature", [&] { return quadrature_on_rays(d.rays, options.interval); });
+  d.samples = timed(d.cost, "boundary samples",
+                    [&] { return sample_boundary(d.boundary, options.sampling); });
+  d.rays = timed(d.cost, "rays",
+                 [&] { return cast_rays(d.boundary, d.loops, options.rays, n_threads); });
+  const bool resolved = options.interior_rule.rule == InteriorRule::resolved;
+  if (resolved && options.weights.sparsity)
+    throw InputError("", "method.weights.sparsity", "a sparsity with quadrature 'resolved'", "a cutoff");
+  if (options.formulation == Formulation::condensed)
+    d.corners = find_corners(d.boundary, d.loops, options.weights.cutoff, options.corner_levels);
+  d.quadrature = timed(d.cost, "interior quadrature", [&] {
+    return resolved ? resolve_weights(d)
+                    : interior_rule(d.boundary, d.loops, d.rays, options.interval,
+                                    options.interior_rule, d.interior_report);
+  });
+  drop_unresolved_corners(d);
   d.theta = timed(d.cost, "distance weights", [&] {
-    return measure_theta(d.boundary, d.loops, d.quadrature.position, options.weights, n_threads);
+    return measure_theta(d.boundary, d.loops, d.corners, d.quadrature.position, options).theta;
   });
   // From here on the cutoff is a length, also where a sparsity was asked for.
   d.options.weights.cutoff = d.theta.cutoff;
   d.options.weights.sparsity.reset();
-  d.weights = timed(d.cost, "blending weights", [&] {
-    return blending_weights(d.theta, d.boundary, d.quadrature.position);
-  });
-  d.origins = timed(d.cost, "origins", [&] {
-    return choose_origins(options.origins, d.weights, d.quadrature.weight, d.samples);
-  });
-  d.projection = timed(d.cost, "projection", [&] { return project(d.samples, d.origins, options.projection); });
-  d.unknowns = control_point_unknowns(d.boundary);
+  d.weights = timed(d.cost, "blending weights",
+                    [&] { return blending_weights(d.theta, d.boundary, d.quadrature.position); });
+  if (options.formulation == Formulation::condensed)
+    choose_coefficients(d);
+  else
+    project_controls(d);
   d.interior = timed(d.cost, "interior map", [&] {
-    return blended_map(d.quadrature.position, d.weights, d.origins, d.projection,
-                       d.unknowns.size(), true, n_threads);
+    return blended_map(d.quadrature.position, d.weights, d.origins, d.projection, d.unknowns.size(),
+                       true, n_threads);
   });
-  d.on_boundary = timed(d.cost, "boundary map", [&] { return map_at(d, d.samples.position, false); });
+  d.on_boundary =
+      timed(d.cost, "boundary map", [&] { return map_at(d, d.samples.position, false); });
+  if (options.formulation == Formulation::condensed)
+    d.divergence_correction = timed(d.cost, "divergence theorem", [&] { return correct_gradients(d); });
+  if (options.formulation == Formulation::condensed)
+    d.unknowns.S = boundary_output(d.samples, d.on_boundary, d.boundary.n_controls());
   if (options.kept_columns < 0)
-    throw InputError("", "method.kept_columns", std::to_string(options.kept_columns), "0 (all) or more");
+    throw InputError("", "method.kept_columns", std::to_string(options.kept_columns),
+                     "0 (all) or more");
   if (options.kept_columns > 0)
-    d.pruning = timed(d.cost, "pruning", [&] { return prune(d.interior, options.kept_columns, options.renormalise); });
+    d.pruning = timed(d.cost, "pruning",
+                      [&] { return prune(d.interior, options.kept_columns, options.renormalise); });
   return d;
 }
 
 template <int Dim>
+BoundaryRule<Dim> boundary_rule(const Discretization<Dim>& d) {
+  SamplingOptions options{DimTraits<Dim>::boundary_points, SampleWeight::measure, SampleRule::gauss};
+  if (d.options.formulation == Formulation::projected) {
+    int highest = 1;
+    for (const auto& part : d.boundary.parts)
+      for (const int degree : part.nurbs.degree) highest = std::max(highest, degree);
+    options = {highest + 5, SampleWeight::measure, SampleRule::gauss_lobatto};
+  }
+  BoundaryRule<Dim> rule;
+  rule.samples = sample_boundary(d.boundary, options);
+  rule.normal.resize(Dim, rule.samples.size());
+  for (int s = 0; s < rule.samples.size(); ++s) {
+    const int part = rule.samples.part[s];
+    rule.normal.col(s) = d.loops.orientation[part] * unit_normal(d.boundary.parts[part].nurbs, rule.samples.u[s]);
+  }
+  return rule;
+}
+
+template <int Dim>
+int append_columns(Discretization<Dim>& d, int n) {
+  auto& unknowns = d.unknowns;
+  const int first = unknowns.size(), size = first + n;
+  unknowns.rest.conservativeResizeLike(Points<Dim>::Zero(Dim, size));
+  unknowns.one.conservativeResizeLike(Eigen::VectorXd::Zero(size));
+  if (unknowns.S.size() > 0)
+    unknowns.S.conservativeResizeLike(Eigen::MatrixXd::Zero(unknowns.S.rows(), size));
+  d.interior.n_columns = d.on_boundary.n_columns = size;
+  return first;
+}
+
+template <int Dim>
 Map<Dim> map_at(const Discretization<Dim>& d, const Points<Dim>& position, bool with_gradient) {
-  const auto theta =
-      measure_theta(d.boundary, d.loops, position, d.options.weights, d.options.n_threads);
+  const auto theta = measure_theta(d.boundary, d.loops, d.corners, position, d.options).theta;
   return blended_map(position, blending_weights(theta, d.boundary, position), d.origins,
                      d.projection, d.unknowns.size(), with_gradient, d.options.n_threads);
 }
 
-template Discretization<2> discretize<2>(const std::vector<std::vector<Nurbs<1, 2>>>&, const MethodOptions&);
-template Discretization<3> discretize<3>(const std::vector<std::vector<Nurbs<2, 3>>>&, const MethodOptions&);
+template Discretization<2> discretize<2>(const std::vector<std::vector<Nurbs<1, 2>>>&,
+                                         const MethodOptions&);
+template Discretization<3> discretize<3>(const std::vector<std::vector<Nurbs<2, 3>>>&,
+                                         const MethodOptions&);
+template BoundaryRule<2> boundary_rule<2>(const Discretization<2>&);
+template BoundaryRule<3> boundary_rule<3>(const Discretization<3>&);
+template int append_columns<2>(Discretization<2>&, int);
+template int append_columns<3>(Discretization<3>&, int);
 template Map<2> map_at<2>(const Discretization<2>&, const Points<2>&, bool);
 template Map<3> map_at<3>(const Discretization<3>&, const Points<3>&, bool);
 

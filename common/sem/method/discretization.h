@@ -5,21 +5,31 @@
 #include <vector>
 
 #include "sem/method/blending_weights.h"
+#include "sem/method/coefficients.h"
+#include "sem/method/corners.h"
+#include "sem/method/interior_rule.h"
 #include "sem/method/map.h"
 #include "sem/method/origins.h"
 #include "sem/method/projection.h"
-#include "sem/method/quadrature.h"
 #include "sem/method/samples.h"
 #include "sem/method/unknowns.h"
 
 namespace sem {
 
+enum class Formulation {
+  projected,  ///< the paper's: unknowns are the control points, c = Pi p, diffuse gradient
+  condensed,  ///< unknowns are the coefficients, exact gradient, control points follow (coefficients.h)
+};
+
 /// The options of every stage.
 struct MethodOptions {
+  Formulation formulation = Formulation::projected;
   SamplingOptions sampling;
   RayOptions rays;
   IntervalOptions interval;
+  InteriorOptions interior_rule;
   WeightOptions weights;
+  int corner_levels = 2;    ///< of patches at re-entrant corners, condensed only (corners.h)
   OriginChoice origins = OriginChoice::shared_parts;
   ProjectionOptions projection;
   int kept_columns = 0;     ///< draft eq. 14: columns of B kept per point, 0: all
@@ -42,6 +52,8 @@ struct Discretization {
   Samples<Dim> samples;
   Rays<Dim> rays;
   Quadrature<Dim> quadrature;
+  InteriorReport<Dim> interior_report;
+  std::vector<CornerPatch<Dim>> corners;  ///< condensed: further parts of theta and weights
   DistanceWeights<Dim> theta;
   BlendingWeights<Dim> weights;
   Origins<Dim> origins;
@@ -49,6 +61,7 @@ struct Discretization {
   Unknowns<Dim> unknowns;
   Map<Dim> interior;     ///< value and gradient at the quadrature points
   Map<Dim> on_boundary;  ///< value at the boundary samples
+  double divergence_correction = 0;  ///< condensed: see satisfy_divergence_theorem
   PruneReport pruning;   ///< kept = 0: not asked for
   std::vector<StageCost> cost;
 };
@@ -58,6 +71,21 @@ struct Discretization {
 template <int Dim>
 Discretization<Dim> discretize(const std::vector<std::vector<Nurbs<Dim - 1, Dim>>>& solids,
                                const MethodOptions& options);
+
+/// Points of the boundary at which loads and clamps act on the map, and their outward unit normals.
+template <int Dim>
+struct BoundaryRule {
+  Samples<Dim> samples;
+  Points<Dim> normal;
+};
+/// Condensed: many Gauss points, as weights have kinks; projected: Gauss-Lobatto, NURBS degree + 5.
+template <int Dim>
+BoundaryRule<Dim> boundary_rule(const Discretization<Dim>& discretization);
+
+/// Adds n columns to the unknowns that neither the map nor the boundary output depends on, rest value
+/// 0: room for what else a formulation needs (the displacements of pins). Returns the first one.
+template <int Dim>
+int append_columns(Discretization<Dim>& discretization, int n);
 
 /// The map at other rest points, inside or on the boundary, by the same weights.
 template <int Dim>

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "sem/method/distance_weights.h"
+#include "sem/method/sided_weight.h"
 #include "sem/nurbs/basis.h"
 
 namespace sem {
@@ -10,10 +11,15 @@ namespace {
 // Index of the second derivative ab among uu, uv, vv.
 constexpr int second_index(int a, int b) { return a + b; }
 
-// dX*/dX of the closest point of a part.
+// How the closest point of a part follows X.
 template <int Dim>
-Mat<Dim> foot_derivative(const Nurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>& u, const Vec<Dim>& X) {
-  const auto at = derivatives(shape, u);
+struct FootMotion {
+  Eigen::Matrix<double, Dim - 1, Dim> parameter;  // du*/dX
+  Mat<Dim> position;                              // dX*/dX
+};
+
+template <int Dim>
+FootMotion<Dim> foot_motion(const Derivatives<Dim - 1, Dim>& at, const Vec<Dim>& X) {
   const Vec<Dim> r = X - at.point;
   // Directions in which the foot is stationary; in the others it is held by an end, an edge or a corner.
   Eigen::Matrix<double, Dim, Dim - 1> T = at.first;
@@ -28,7 +34,48 @@ Mat<Dim> foot_derivative(const Nurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>&
     A.col(a).setZero();
     A(a, a) = 1;
   }
-  return T * A.inverse() * T.transpose();
+  FootMotion<Dim> motion;
+  motion.parameter = A.inverse() * T.transpose();
+  motion.position = T * motion.parameter;
+  return motion;
+}
+
+// dN/du of the unit normal, by Weingarten's equations.
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim - 1> normal_derivative(const Derivatives<Dim - 1, Dim>& at, const Vec<Dim>& normal) {
+  const Eigen::Matrix<double, Dim - 1, Dim - 1> metric = at.first.transpose() * at.first;
+  Eigen::Matrix<double, Dim - 1, Dim - 1> form;
+  for (int a = 0; a < Dim - 1; ++a)
+    for (int b = 0; b < Dim - 1; ++b) form(a, b) = at.second[second_index(a, b)].dot(normal);
+  return -at.first * metric.inverse() * form;
+}
+
+// d(X - X*)/|X - X*| / dX.
+template <int Dim>
+Mat<Dim> direction_derivative(const Vec<Dim>& n, double d, const Mat<Dim>& foot) {
+  const Mat<Dim> I = Mat<Dim>::Identity();
+  return (I - n * n.transpose()) * (I - foot) / d;
+}
+
+// theta = f(d / alpha) h(side).
+template <int Dim>
+Vec<Dim> sided_gradient(const Nurbs<Dim - 1, Dim>& shape, const Distances<Dim>& distances, int pair,
+                        const Vec<Dim>& X, const DistanceWeights<Dim>& theta) {
+  const double d = distances.closest[pair];
+  const int outward = distances.outward[distances.part[pair]];
+  const Slope profile = distance_profile(d / theta.cutoff);
+  if (d == 0) return -profile.derivative / theta.cutoff * outward * unit_normal(shape, distances.foot_u[pair]);
+  const Vec<Dim> n = (X - distances.foot[pair]) / d;
+  const Slope step = side_step(distances.side[pair], theta.side_ramp);
+  const Vec<Dim> gradient = profile.derivative * step.value / theta.cutoff * n;
+  if (step.derivative == 0) return gradient;
+  const auto at = derivatives(shape, distances.foot_u[pair]);
+  const Vec<Dim> N = unit_normal(shape, distances.foot_u[pair]);
+  const FootMotion<Dim> foot = foot_motion<Dim>(at, X);
+  const Mat<Dim> dn = direction_derivative<Dim>(n, d, foot.position);
+  const Vec<Dim> dside =
+      -outward * (dn.transpose() * N + (normal_derivative<Dim>(at, N) * foot.parameter).transpose() * n);
+  return gradient + profile.value * step.derivative * dside;
 }
 
 template <int Dim>
@@ -38,9 +85,9 @@ Vec<Dim> theta_gradient(const Boundary<Dim>& boundary, const Distances<Dim>& dis
   if (d == 0) return Vec<Dim>::Zero();
   const Vec<Dim> n = (X - distances.foot[pair]) / d;
   if (!(reach < cutoff)) return -n / cutoff;
-  const Mat<Dim> C = foot_derivative<Dim>(boundary.parts[distances.part[pair]].nurbs, distances.foot_u[pair], X);
-  const Mat<Dim> I = Mat<Dim>::Identity();
-  const Mat<Dim> dn = (I - n * n.transpose()) * (I - C) / d;
+  const auto at = derivatives(boundary.parts[distances.part[pair]].nurbs, distances.foot_u[pair]);
+  const Mat<Dim> C = foot_motion<Dim>(at, X).position;
+  const Mat<Dim> dn = direction_derivative<Dim>(n, d, C);
   const auto hit = derivatives(boundary.parts[distances.hit_part[pair]].nurbs, distances.hit_u[pair]);
   const Vec<Dim> N = DimTraits<Dim>::area_normal(hit.first);
   const double r = draft ? reach + d : reach;
@@ -53,22 +100,26 @@ Vec<Dim> theta_gradient(const Boundary<Dim>& boundary, const Distances<Dim>& dis
 
 template <int Dim>
 void distance_weight_gradients(const Boundary<Dim>& boundary, const Points<Dim>& position,
-                               const Distances<Dim>& distances, DistanceWeight variant,
-                               DistanceWeights<Dim>& theta) {
+                               const Distances<Dim>& distances, DistanceWeights<Dim>& theta) {
   theta.gradient.clear();
   for (int k = 0; k < distances.n_points; ++k) {
     int pair = distances.begin[k];  // both lists are in the same order; theta leaves out pairs
     for (int e = theta.begin[k]; e < theta.begin[k + 1]; ++e) {
       while (distances.part[pair] != theta.part[e]) ++pair;
-      theta.gradient.push_back(theta_gradient<Dim>(boundary, distances, pair, position.col(k), theta.cutoff,
-                                                   variant == DistanceWeight::draft));
+      const Vec<Dim> X = position.col(k);
+      const int i = theta.part[e];
+      if (distances.variant == DistanceWeight::sided)
+        theta.gradient.push_back(sided_gradient<Dim>(boundary.parts[i].nurbs, distances, pair, X, theta));
+      else
+        theta.gradient.push_back(theta_gradient<Dim>(boundary, distances, pair, X, theta.cutoff,
+                                                     distances.variant == DistanceWeight::draft));
     }
   }
 }
 
 #define SEM_INSTANTIATE(Dim)                                                              \
   template void distance_weight_gradients<Dim>(const Boundary<Dim>&, const Points<Dim>&,  \
-                                               const Distances<Dim>&, DistanceWeight, DistanceWeights<Dim>&);
+                                               const Distances<Dim>&, DistanceWeights<Dim>&);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
 

@@ -5,6 +5,7 @@
 
 #include "sem/base/error.h"
 #include "sem/base/parallel.h"
+#include "sem/method/sided_weight.h"
 #include "sem/nurbs/closest.h"
 #include "sem/nurbs/hits.h"
 
@@ -19,6 +20,7 @@ struct Pair {
   Param<Dim - 1> foot_u;
   int hit_part;
   Param<Dim - 1> hit_u = Param<Dim - 1>::Zero();
+  double side = 1;
 };
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -30,7 +32,7 @@ class Meter {
         double max_distance)
       : boundary_(boundary), loops_(loops), variant_(variant), max_distance_(max_distance),
         closed_loop_(boundary.n_parts(), -1) {
-    if (variant == DistanceWeight::distance_only) return;
+    if (variant == DistanceWeight::distance_only || variant == DistanceWeight::sided) return;
     for (int l = 0; l < int(loops.loops.size()); ++l) {
       const auto& loop = loops.loops[l];
       bool closed = loop.parts.size() == 1;
@@ -52,6 +54,10 @@ class Meter {
       pairs.push_back({i, on_part || enclosed ? 0 : closest.distance, infinity, closest.point,
                        closest.u, on_part ? i : -1});
     }
+    if (variant_ == DistanceWeight::sided) {
+      for (auto& pair : pairs) find_side(X, pair);
+      return;
+    }
     if (on_boundary) {
       std::erase_if(pairs, [](const auto& pair) { return pair.hit_part != pair.part; });
       for (auto& pair : pairs) pair.hit_part = -1;
@@ -64,6 +70,14 @@ class Meter {
   }
 
  private:
+  void find_side(const Vec<Dim>& X, Pair<Dim>& pair) const {
+    pair.hit_part = -1;
+    const int outward = loops_.orientation[pair.part];
+    if (pair.closest == 0 || outward == 0) return;
+    const Vec<Dim> normal = unit_normal(boundary_.parts[pair.part].nurbs, pair.foot_u);
+    pair.side = -outward * normal.dot(X - pair.foot) / pair.closest;
+  }
+
   // The ray from X* through X: reach and the part that is hit.
   void shoot(const Vec<Dim>& X, Pair<Dim>& pair) const {
     const double joint = 1e-7 * boundary_.box.diagonal();
@@ -123,8 +137,10 @@ Distances<Dim> measure_distances(const Boundary<Dim>& boundary, const Loops<Dim>
     for (int k = begin; k < end; ++k) meter.measure(position.col(k), rows[k]);
   });
   Distances<Dim> distances;
+  distances.variant = variant;
   distances.n_points = n;
   distances.n_parts = boundary.n_parts();
+  if (variant == DistanceWeight::sided) distances.outward = loops.orientation;
   distances.begin.push_back(0);
   for (const auto& row : rows) {
     for (const auto& pair : row) {
@@ -135,6 +151,7 @@ Distances<Dim> measure_distances(const Boundary<Dim>& boundary, const Loops<Dim>
       distances.foot_u.push_back(pair.foot_u);
       distances.hit_part.push_back(pair.hit_part);
       distances.hit_u.push_back(pair.hit_u);
+      if (variant == DistanceWeight::sided) distances.side.push_back(pair.side);
     }
     distances.begin.push_back(int(distances.part.size()));
   }
@@ -149,15 +166,20 @@ DistanceWeights<Dim> distance_weights(const Distances<Dim>& distances, const Wei
   if (!options.sparsity && !(options.cutoff > 0))
     throw InputError("", "method.weights.cutoff", std::to_string(options.cutoff),
                      "a positive length");
+  if (!(options.side_ramp > 0 && options.side_ramp <= 1))
+    throw InputError("", "method.weights.side_ramp", std::to_string(options.side_ramp), "a number in (0, 1]");
   DistanceWeights<Dim> weights;
   weights.n_parts = distances.n_parts;
+  weights.side_ramp = options.side_ramp;
   weights.cutoff =
       options.sparsity ? cutoff_of_sparsity(distances, *options.sparsity) : options.cutoff;
   weights.begin.push_back(0);
   for (int k = 0; k < distances.n_points; ++k) {
     for (int e = distances.begin[k]; e < distances.begin[k + 1]; ++e) {
-      const double theta =
-          1 - distances.closest[e] / std::min(distances.reach[e], weights.cutoff);
+      const double t = distances.closest[e] / std::min(distances.reach[e], weights.cutoff);
+      const double theta = distances.variant == DistanceWeight::sided
+                               ? distance_profile(t).value * side_step(distances.side[e], options.side_ramp).value
+                               : 1 - t;
       if (!(theta > 0)) continue;
       weights.part.push_back(distances.part[e]);
       weights.theta.push_back(theta);

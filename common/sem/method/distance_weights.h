@@ -13,12 +13,14 @@ enum class DistanceWeight {
   published,      ///< 1 - |X - X*| / min(d_total, alpha), d_total = |X* to hit|
   draft,          ///< 1 - |X - X*| / min(d2, alpha), d2 = |X to hit|
   distance_only,  ///< 1 - |X - X*| / alpha, no rays
+  sided,          ///< smooth, of the distance and of the side of the part that X lies on (sided_weight.h), no rays
 };
 
 struct WeightOptions {
   DistanceWeight variant = DistanceWeight::published;
   double cutoff = 1;               ///< alpha, m
   std::optional<double> sparsity = {};  ///< T in (0, 1]: alpha so that this share of the weights is non-zero
+  double side_ramp = 0.2;  ///< s in (0, 1]: the sided weight falls to 0 where the cosine to the inner normal is -s
 };
 
 /// What the weights of one part at one point are made of; alpha-free. Stored
@@ -26,7 +28,9 @@ struct WeightOptions {
 /// that a gradient of theta on its smooth piece needs.
 template <int Dim>
 struct Distances {
+  DistanceWeight variant = DistanceWeight::published;
   int n_points = 0, n_parts = 0;
+  std::vector<int> outward;      ///< #parts: Loops::orientation (sided)
   std::vector<int> begin;        ///< #points + 1: pairs of a point
   std::vector<int> part;         ///< #pairs
   std::vector<double> closest;   ///< #pairs: |X - X*|
@@ -36,6 +40,9 @@ struct Distances {
   std::vector<int> hit_part;     ///< #pairs: the part hit by the ray, -1: none. With the choice between
                                  ///< reach and alpha it labels the smooth piece that X lies in.
   std::vector<Param<Dim - 1>> hit_u;   ///< #pairs: parameter of the hit, where there is one
+  std::vector<double> side;      ///< #pairs: cosine between X - X* and the part's inner normal at X* (sided);
+                                 ///< empty for the other variants. 1 on the part, and where the loops
+                                 ///< could not decide the part's orientation.
 };
 
 /// Closest points and rays.
@@ -51,6 +58,9 @@ struct Distances {
 /// the joint. No hit: reach is infinite, only alpha counts. Inside a closed
 /// part that is a loop by itself theta_i = 1 (the published text's rule, for
 /// the variants with a ray): reach and alpha are ignored, closest is set to 0.
+/// Sided: no Kronecker property; on a part all others keep their theta, so that theta is continuous
+/// up to the boundary. A part does not reach what lies behind it: nothing is seen through a gap that
+/// is thinner than the limb beside it, as long as alpha is below the width of limb and gap.
 template <int Dim>
 Distances<Dim> measure_distances(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
                                  const Points<Dim>& position, DistanceWeight variant,
@@ -60,6 +70,7 @@ Distances<Dim> measure_distances(const Boundary<Dim>& boundary, const Loops<Dim>
 template <int Dim>
 struct DistanceWeights {
   double cutoff = 0;             ///< the alpha used
+  double side_ramp = 0;          ///< s of the sided variant
   std::vector<int> begin;        ///< #points + 1
   std::vector<int> part;         ///< #entries
   std::vector<double> theta;     ///< #entries, in (0, 1]
@@ -81,10 +92,10 @@ DistanceWeights<Dim> distance_weights(const Distances<Dim>& distances, const Wei
 /// A_ab = X_a . X_b - (X - X*) . X_ab (zero for a foot at a corner or an end of its part); the hit Y =
 /// X* + r n stays on the surface with normal N, hence grad r = -(C + r dn/dX)^T N / (N . n), and
 /// reach = r (published) or r - d (draft). Zero where theta is 1 by a rule: on a part, where it has only
-/// one-sided derivatives, and inside a closed part.
+/// one-sided derivatives, and inside a closed part. Sided (sided_weight.h): on a part n is its
+/// inner normal, the limit from inside.
 template <int Dim>
 void distance_weight_gradients(const Boundary<Dim>& boundary, const Points<Dim>& position,
-                               const Distances<Dim>& distances, DistanceWeight variant,
-                               DistanceWeights<Dim>& theta);
+                               const Distances<Dim>& distances, DistanceWeights<Dim>& theta);
 
 }  // namespace sem

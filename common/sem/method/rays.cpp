@@ -141,6 +141,25 @@ std::vector<Ray<Dim>> ray_grid(const Box<Dim>& box, const RayOptions& options) {
 }  // namespace
 
 template <int Dim>
+void cast(const Boundary<Dim>& boundary, const Loops<Dim>& loops, Rays<Dim>& rays, int n_threads) {
+  const RayCaster<Dim> caster(boundary, loops, rays.axis);
+  const int n = int(rays.rays.size());
+  std::vector<char> unpaired(n, 0);
+  std::vector<double> capped(n, 0);
+  parallel_for(n, n_threads, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      bool doubt = false;
+      caster.cast(rays.rays[k], doubt, capped[k]);
+      unpaired[k] = doubt;
+    }
+  });
+  for (int k = 0; k < n; ++k) {
+    rays.n_unpaired += unpaired[k];
+    rays.capped_length += capped[k] * rays.rays[k].weight;
+  }
+}
+
+template <int Dim>
 Rays<Dim> cast_rays(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
                     const RayOptions& options, int n_threads) {
   if (options.n_rays < 1)
@@ -151,24 +170,12 @@ Rays<Dim> cast_rays(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
   Rays<Dim> result;
   result.axis = options.axis;
   result.rays = ray_grid(boundary.box, options);
-  const RayCaster<Dim> caster(boundary, loops, options.axis);
-  const int n = int(result.rays.size());
-  std::vector<char> unpaired(n, 0);
-  std::vector<double> capped(n, 0);
-  parallel_for(n, n_threads, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) {
-      bool doubt = false;
-      caster.cast(result.rays[k], doubt, capped[k]);
-      unpaired[k] = doubt;
-    }
-  });
-  for (int k = 0; k < n; ++k) {
-    result.n_unpaired += unpaired[k];
-    result.capped_length += capped[k] * result.rays[k].weight;
-  }
+  cast(boundary, loops, result, n_threads);
   return result;
 }
 
+template void cast<2>(const Boundary<2>&, const Loops<2>&, Rays<2>&, int);
+template void cast<3>(const Boundary<3>&, const Loops<3>&, Rays<3>&, int);
 template Rays<2> cast_rays<2>(const Boundary<2>&, const Loops<2>&, const RayOptions&, int);
 template Rays<3> cast_rays<3>(const Boundary<3>&, const Loops<3>&, const RayOptions&, int);
 

@@ -58,4 +58,9 @@ template <int Dim>
 Rays<Dim> cast_rays(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
                     const RayOptions& options, int n_threads = 1);
 
+/// The same for rays that are given: fills hits and intervals, and adds to the doubts.
+template <int Dim>
+void cast(const Boundary<Dim>& boundary, const Loops<Dim>& loops, Rays<Dim>& rays,
+          int n_threads = 1);
+
 }  // namespace sem

@@ -7,14 +7,15 @@
 namespace sem {
 namespace {
 
-// Gauss-Lobatto points of all knot spans along one direction. A point shared
-// by two spans is kept once, with both weights.
-LineRule span_points(const std::vector<Interval>& spans, int n) {
-  const LineRule reference = gauss_lobatto(n);
+// Points of all knot spans along one direction. A point shared by two spans is kept once, with both
+// weights.
+LineRule span_points(const std::vector<Interval>& spans, int n, SampleRule points) {
+  const bool ends = points == SampleRule::gauss_lobatto;
+  const LineRule reference = ends ? gauss_lobatto(n) : gauss_legendre(n);
   LineRule rule;
   for (const auto& [a, b] : spans)
     for (int k = 0; k < n; ++k) {
-      const double u = k == n - 1 ? b : a + (b - a) * (1 + reference.node[k]) / 2;
+      const double u = ends && k == n - 1 ? b : a + (b - a) * (1 + reference.node[k]) / 2;
       const double weight = reference.weight[k] * (b - a) / 2;
       if (k == 0 && !rule.node.empty() && rule.node.back() == u) {
         rule.weight.back() += weight;
@@ -28,14 +29,14 @@ LineRule span_points(const std::vector<Interval>& spans, int n) {
 
 // Appends the tensor-product samples of one part.
 template <int Dim>
-void append_part(const Nurbs<Dim - 1, Dim>& nurbs, int part, int first_control, int points_per_span,
-                 Samples<Dim>& out, std::vector<Vec<Dim>>& position, std::vector<double>& weight) {
+void append_part(const Nurbs<Dim - 1, Dim>& nurbs, int part, int first_control,
+                 const SamplingOptions& options, Samples<Dim>& out, std::vector<Vec<Dim>>& position, std::vector<double>& weight) {
   constexpr int param_dim = Dim - 1;
   std::array<LineRule, param_dim> rules;
   int n = 1;
   for (int a = 0; a < param_dim; ++a) {
-    rules[a] = span_points(spans(nurbs, a),
-                           points_per_span > 0 ? points_per_span : nurbs.degree[a] + 1);
+    const int n_points = options.points_per_span > 0 ? options.points_per_span : nurbs.degree[a] + 1;
+    rules[a] = span_points(spans(nurbs, a), n_points, options.rule);
     n *= int(rules[a].node.size());
   }
   BasisValues<param_dim> basis;
@@ -80,8 +81,8 @@ Samples<Dim> sample_boundary(const Boundary<Dim>& boundary, const SamplingOption
   samples.row.push_back(0);
   for (int i = 0; i < boundary.n_parts(); ++i) {
     samples.first.push_back(samples.size());
-    append_part<Dim>(boundary.parts[i].nurbs, i, boundary.first_control[i], options.points_per_span,
-                     samples, position, weight);
+    append_part<Dim>(boundary.parts[i].nurbs, i, boundary.first_control[i], options, samples,
+                     position, weight);
   }
   samples.first.push_back(samples.size());
   samples.position.resize(Dim, samples.size());

@@ -12,9 +12,15 @@ enum class SampleWeight {
   uniform,  ///< all samples of the model count the same, as in the draft's eq. 4; same total
 };
 
+enum class SampleRule {
+  gauss_lobatto,  ///< ends of spans included
+  gauss,          ///< Gauss-Legendre: interior points, where normals and gradients are unique
+};
+
 struct SamplingOptions {
-  int points_per_span = 0;  ///< Gauss-Lobatto points per knot span and direction; 0: NURBS degree + 1
+  int points_per_span = 0;  ///< points per knot span and direction; 0: NURBS degree + 1
   SampleWeight weight = SampleWeight::measure;
+  SampleRule rule = SampleRule::gauss_lobatto;
 };
 
 /// Samples of all parts, ordered by part.
@@ -32,7 +38,7 @@ struct Samples {
   int size() const { return int(part.size()); }
 };
 
-/// Gauss-Lobatto points in every knot span, ends included, so that a span's
+/// By default Gauss-Lobatto points in every knot span, ends included, so that a span's
 /// ends are samples. With degree + 1 points per span J determines p wherever
 /// a span's basis does. Throws InputError if points_per_span is 1 or negative.
 template <int Dim>

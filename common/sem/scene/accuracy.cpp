@@ -2,7 +2,58 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sem/method/least_squares.h"
+
 namespace sem {
+namespace {
+
+constexpr int highest_moment = 6;
+
+// Largest difference of the rule's moments from the boundary's.
+template <int Dim>
+double high_moment_error(const Discretization<Dim>& d, const Vec<Dim>& center) {
+  const double size = (d.boundary.box.upper - d.boundary.box.lower).maxCoeff();
+  const auto truth = boundary_moments_to_degree(d.boundary, d.loops, highest_moment, center, size);
+  if (!truth) return 0;
+  return moment_error(d.quadrature, highest_moment, center, size, *truth);
+}
+
+// z whose control points are these, as nearly as the unknowns allow.
+template <int Dim>
+Points<Dim> unknowns_for(const Unknowns<Dim>& unknowns, const Points<Dim>& controls) {
+  if (unknowns.S.size() == 0) return controls;
+  return least_squares(unknowns.S, controls.transpose()).transpose();
+}
+
+}  // namespace
+
+template <int Dim>
+double test_energy(const Model<Dim>& model, const Quadrature<Dim>& rule) {
+  const auto& d = model.discretization;
+  const Vec<Dim> middle = (d.boundary.box.lower + d.boundary.box.upper) / 2;
+  const double size = (d.boundary.box.upper - d.boundary.box.lower).maxCoeff();
+  Points<Dim> p = rest_controls(d.boundary);
+  for (int c = 0; c < p.cols(); ++c) {
+    const Vec<Dim> xi = (p.col(c) - middle) / (size / 2);
+    for (int a = 0; a < Dim; ++a) {
+      const double next = xi[(a + 1) % Dim];
+      p(a, c) += size / 40 * (next * next + xi[a] * next);
+    }
+  }
+  const Points<Dim> z = unknowns_for(d.unknowns, p);
+  double energy = 0;
+  for (const auto& block : map_at(d, rule.position, true).blocks) {
+    const Points<Dim> nodes = z(Eigen::all, block.columns);
+    for (size_t k = 0; k < block.points.size(); ++k) {
+      Mat<Dim> F;
+      for (int axis = 0; axis < Dim; ++axis) F.col(axis) = nodes * block.gradient[axis].row(k).transpose();
+      Material material = model.materials.materials[rule.solid[block.points[k]]];
+      material.model = MaterialModel::linear;
+      energy += rule.weight[block.points[k]] * energy_density<Dim>(material, F);
+    }
+  }
+  return energy;
+}
 
 template <int Dim>
 Accuracy<Dim> measure_accuracy(const Model<Dim>& model) {
@@ -16,6 +67,12 @@ Accuracy<Dim> measure_accuracy(const Model<Dim>& model) {
     a.volume_error = std::abs(a.quadrature.volume - a.boundary.volume) / volume;
     a.first_moment_error = (a.quadrature.first - a.boundary.first).norm() / (volume * size);
     a.second_moment_error = (a.quadrature.second - a.boundary.second).norm() / (volume * size * size);
+  }
+  a.high_moment_error = high_moment_error<Dim>(d, a.about);
+  a.report = d.interior_report;
+  if (d.interior_report.original.size() > 0) {
+    const double before = test_energy(model, d.interior_report.original);
+    a.energy_change = std::abs(test_energy(model, d.quadrature) / before - 1);
   }
   double uncovered = 0;
   for (const int k : d.weights.uncovered) uncovered += d.quadrature.weight[k];
@@ -53,6 +110,14 @@ nlohmann::ordered_json moments_json(const Moments<Dim>& moments, const Vec<Dim>&
   return json;
 }
 
+nlohmann::ordered_json moment_report_json(const MomentReport& report) {
+  return {{"degree", report.degree},
+          {"points_before", report.points_before},
+          {"points_after", report.points_after},
+          {"moment_error_before", report.error_before},
+          {"moment_error_after", report.error_after}};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -64,11 +129,25 @@ nlohmann::ordered_json to_json(const Accuracy<Dim>& a) {
     rule["boundary_truth"] = moments_json(a.boundary, a.about);
     rule["relative_error"] = {{DimTraits<Dim>::volume_name, a.volume_error},
                               {"first_moments", a.first_moment_error},
-                              {"second_moments", a.second_moment_error}};
+                              {"second_moments", a.second_moment_error},
+                              {"moments_to_degree_6", a.high_moment_error}};
   } else {
     rule["boundary_truth"] = "not available: the boundary does not determine the body (gaps, undecided "
                              "orientation or overlapping solids)";
   }
+  if (!a.report.components.empty()) {
+    rule["estimated_error"] = a.report.error;
+    for (const auto& component : a.report.components)
+      rule["components"].push_back({{"rule", component.rule},
+                                    {"cells", component.n_cells},
+                                    {"points", component.n_points},
+                                    {"estimated_error", component.error}});
+  }
+  if (a.report.fit.degree > 0) rule["fit"] = moment_report_json(a.report.fit);
+  if (!a.report.fit_has_truth) rule["fit"] = "not done: the boundary's moments are not available";
+  if (a.report.compression.degree > 0) rule["compression"] = moment_report_json(a.report.compression);
+  if (a.report.fit.degree > 0 || a.report.compression.degree > 0)
+    rule["strain_energy_change"] = a.energy_change;
   json["uncovered_share"] = a.uncovered_share;
   json["gap_share"] = a.gap_share;
   json["identity_error"] = a.identity_error;
@@ -79,6 +158,8 @@ nlohmann::ordered_json to_json(const Accuracy<Dim>& a) {
   return json;
 }
 
+template double test_energy<2>(const Model<2>&, const Quadrature<2>&);
+template double test_energy<3>(const Model<3>&, const Quadrature<3>&);
 template Accuracy<2> measure_accuracy<2>(const Model<2>&);
 template Accuracy<3> measure_accuracy<3>(const Model<3>&);
 template nlohmann::ordered_json to_json<2>(const Accuracy<2>&);

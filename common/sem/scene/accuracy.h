@@ -15,6 +15,9 @@ struct Accuracy {
   double volume_error = 0;            ///< relative
   double first_moment_error = 0;      ///< relative to volume times size
   double second_moment_error = 0;     ///< relative to volume times size squared
+  double high_moment_error = 0;       ///< largest of all moments to degree 6, relative to the integral of the magnitude
+  double energy_change = 0;           ///< by fit and compression: relative change of a test deformation's strain energy
+  InteriorReport<Dim> report;         ///< how the rule came about
   double uncovered_share = 0;         ///< volume share of points where all theta vanish
   double gap_share = 0;               ///< share of the inside whose ends are closed gaps
   double identity_error = 0;          ///< largest |x(X) - X| of the undeformed map, by the size
@@ -23,6 +26,12 @@ struct Accuracy {
   int n_borrowed = 0;                 ///< parts whose linear fit borrowed from their origin's set
   double pruning_error = 0;           ///< draft eq. 14, 0 without
 };
+
+/// Linear strain energy of a test deformation by a rule, with the map evaluated at its points and the solids' own
+/// materials, J (2D: per thickness). The control points are bent: with xi = (X - middle of the box) / (size / 2),
+/// u_a = size / 40 (xi_b^2 + xi_a xi_b), b = a + 1 (cyclic); other unknowns follow them in the least-squares sense.
+template <int Dim>
+double test_energy(const Model<Dim>& model, const Quadrature<Dim>& rule);
 
 template <int Dim>
 Accuracy<Dim> measure_accuracy(const Model<Dim>& model);

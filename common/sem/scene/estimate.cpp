@@ -73,6 +73,8 @@ std::vector<Change<Dim>> changes_for(const Scene<Dim>& scene, const Model<Dim>& 
     s.method.rays.n_rays *= 2;
     s.method.interval.points *= 2;
     s.method.interval.spacing /= 2;
+    s.method.interior_rule.waves *= 2;
+    s.method.interior_rule.compress *= 2;
   }});
   bool by_index = false;
   for (const auto& pin : scene.pins) by_index |= !pin.where.control_points.empty();

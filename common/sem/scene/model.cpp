@@ -38,6 +38,7 @@ class Builder {
     model_ = std::make_unique<Model<Dim>>();
     discretize_parts();
     timed("materials", [&] { assign_materials(); });
+    select_pins();
     timed("operators", [&] { make_operators(); });
     timed("pins", [&] { make_pins(); });
     timed("loads", [&] { make_loads(); });
@@ -79,9 +80,11 @@ class Builder {
     model_->point_mass.resize(d.quadrature.size());
     for (int k = 0; k < d.quadrature.size(); ++k) {
       const auto begin = d.weights.w.begin() + d.weights.begin[k];
-      const auto end = d.weights.w.begin() + d.weights.begin[k + 1];
+      auto end = d.weights.w.begin() + d.weights.begin[k + 1];
+      // Corner patches have no material of their own; they come last.
+      while (end > begin + 1 && d.weights.part[end - 1 - d.weights.w.begin()] >= d.boundary.n_parts()) --end;
       const int heaviest = d.weights.part[std::max_element(begin, end) - d.weights.w.begin()];
-      const int m = own[heaviest] >= 0 ? own[heaviest] : d.quadrature.solid[k];
+      const int m = heaviest < int(own.size()) && own[heaviest] >= 0 ? own[heaviest] : d.quadrature.solid[k];
       field.of_point.push_back(m);
       model_->point_mass[k] = field.materials[m].density * d.quadrature.weight[k];
     }
@@ -100,7 +103,8 @@ class Builder {
     }
     model_->energy = std::make_unique<InternalEnergy<Dim>>(
         d.interior, d.quadrature.weight, model_->materials,
-        model_->stability_stiffness * model_->stability);
+        (condensed() ? 0 : model_->stability_stiffness) * model_->stability,
+        condensed() ? make_clamps() : Clamps<Dim>());
     System& system = model_->system;
     system.potential = model_->energy.get();
     system.mass = expand(model_->mass, Dim);
@@ -147,25 +151,97 @@ class Builder {
     return ((X - box.lower).array() >= -tolerance).all() && ((box.upper - X).array() >= -tolerance).all();
   }
 
+  bool condensed() const { return scene_.method.formulation == Formulation::condensed; }
+
+  // Which control points the pins hold. Condensed: each pin's displacement becomes a column of z.
+  void select_pins() {
+    auto& d = model_->discretization;
+    for (size_t i = 0; i < scene_.pins.size(); ++i) {
+      const std::string field = "pins[" + std::to_string(i) + "]";
+      model_->held.push_back({select_controls(scene_.pins[i].where, field), {}});
+      if (model_->held.back().controls.empty())
+        throw InputError(file_, field, "no control point", "a part, box or index that matches at least one");
+    }
+    if (condensed()) first_pin_column_ = append_columns(d, int(scene_.pins.size()));
+  }
+
+  // A pin holds the boundary where it holds all control points that it depends on, and by a spring
+  // those of its control points that neither lie nor coincide with one there.
+  Clamps<Dim> make_clamps() const {
+    const auto& d = model_->discretization;
+    const int degree = d.projection.monomials.degree();
+    const BoundaryRule<Dim> rule = boundary_rule(d);
+    const Samples<Dim>& samples = rule.samples;
+    std::vector<int> chosen;
+    ClampedPoints<Dim> points;
+    std::vector<HeldControl<Dim>> controls;
+    std::vector<Vec<Dim>> held_axes;
+    for (size_t i = 0; i < scene_.pins.size(); ++i) {
+      const auto& held = model_->held[i].controls;
+      Vec<Dim> axes;
+      for (int a = 0; a < Dim; ++a) axes[a] = scene_.pins[i].axes[a];
+      std::set<int> covered;
+      for (int s = 0; s < samples.size(); ++s) {
+        const auto begin = samples.column.begin() + samples.row[s], end = samples.column.begin() + samples.row[s + 1];
+        if (!std::all_of(begin, end, [&](int c) { return std::binary_search(held.begin(), held.end(), c); })) continue;
+        covered.insert(begin, end);
+        chosen.push_back(s);
+        points.pin_column.push_back(first_pin_column_ + int(i));
+        held_axes.push_back(axes);
+      }
+      for (const auto& group : coincident_controls(d.boundary))
+        if (std::any_of(group.begin(), group.end(), [&](int c) { return covered.count(c) > 0; }))
+          covered.insert(group.begin(), group.end());
+      for (const int c : held) {
+        if (covered.count(c)) continue;
+        const double size = std::pow(d.boundary.box.diagonal(), Dim - 2);
+        controls.push_back({d.unknowns.S.row(c), rest_controls(d.boundary).col(c), axes, first_pin_column_ + int(i),
+                            100 * scene_.solids[d.boundary.solid[part_of_control(c)]].material.youngs_modulus * size});
+      }
+    }
+    points.position = samples.position(Eigen::all, chosen);
+    points.weight = samples.weight(chosen);
+    points.normal.resize(Dim, chosen.size());
+    points.held.resize(Dim, chosen.size());
+    points.penalty.resize(chosen.size());
+    for (size_t k = 0; k < chosen.size(); ++k) {
+      const int part = samples.part[chosen[k]];
+      const double measure = samples.weight.segment(samples.first[part], samples.first[part + 1] - samples.first[part]).sum();
+      points.normal.col(k) = rule.normal.col(chosen[k]);
+      points.held.col(k) = held_axes[k];
+      points.penalty[k] = scene_.clamp_penalty * degree * degree / std::pow(measure, 1.0 / (Dim - 1));
+      points.material.push_back(part_materials_[part] ? *part_materials_[part] : scene_.solids[d.boundary.solid[part]].material);
+    }
+    points.map = map_at(d, points.position, true);
+    return Clamps<Dim>(std::move(points), std::move(controls));
+  }
+
+  int part_of_control(int control) const {
+    const auto& first = model_->discretization.boundary.first_control;
+    return int(std::upper_bound(first.begin(), first.end(), control) - first.begin()) - 1;
+  }
+
   void make_pins() {
     System& system = model_->system;
     model_->target = system.rest;
     std::vector<bool> held(system.size(), false);
     for (size_t i = 0; i < scene_.pins.size(); ++i) {
       const auto& pin = scene_.pins[i];
-      const std::string field = "pins[" + std::to_string(i) + "]";
-      const std::vector<int> controls = select_controls(pin.where, field);
-      if (controls.empty())
-        throw InputError(file_, field, "no control point", "a part, box or index that matches at least one");
-      Held& pinned = model_->held.emplace_back(Held{controls, {}});
-      for (const int control : controls)
+      const auto hold = [&](int column, bool report) {
         for (int a = 0; a < Dim; ++a) {
+          const int entry = Dim * column + a;
+          if (report || pin.axes[a]) held[entry] = true;
           if (!pin.axes[a]) continue;
-          const int entry = Dim * unknown_of_control(model_->discretization.unknowns, control).value() + a;
-          held[entry] = true;
-          pinned.entries.push_back(entry);
+          model_->held[i].entries.push_back(entry);
           model_->target[entry] = system.rest[entry] + pin.displacement[a];
         }
+      };
+      if (condensed()) {
+        hold(first_pin_column_ + int(i), true);
+        continue;
+      }
+      for (const int control : model_->held[i].controls)
+        hold(unknown_of_control(model_->discretization.unknowns, control).value(), false);
     }
     for (int entry = 0; entry < system.size(); ++entry)
       if (!held[entry]) system.free.push_back(entry);
@@ -241,6 +317,7 @@ class Builder {
 
   const Scene<Dim>& scene_;
   const std::string& file_;
+  int first_pin_column_ = 0;  // condensed
   std::vector<std::pair<std::string, std::string>> part_names_;  // solid, part
   std::vector<const Material*> part_materials_;
   std::vector<double> part_densities_;

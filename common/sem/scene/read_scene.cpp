@@ -75,6 +75,12 @@ void describe_solid(Fields& fields, SceneSolid<Dim>& solid, const ShapeLibrary<D
 
 template <int Dim>
 void describe_method(Fields& fields, MethodOptions& m) {
+  fields.choice("formulation", m.formulation, {"projected", "condensed"}, "projected: the paper's, unknowns are the control points; condensed: the polynomials' coefficients, converges");
+  // What converges is the default of the formulation that is meant to.
+  if (fields.reading() && m.formulation == Formulation::condensed) {
+    m.weights.variant = DistanceWeight::sided;
+    m.interior_rule.rule = InteriorRule::resolved;
+  }
   fields.integer("degree", m.projection.degree, 1, 4, "n, degree of the deformation polynomials");
   fields.choice("fit", m.projection.fit, {"degree_by_degree", "degree_by_degree_raw", "pseudo_inverse"},
                 "projection; pseudo_inverse is the draft's");
@@ -83,7 +89,14 @@ void describe_method(Fields& fields, MethodOptions& m) {
     if (m.sampling.points_per_span == 1) f.reject("points_per_span", "1", "0 or at least 2");
     f.choice("weight", m.sampling.weight, {"measure", "uniform"}, "arc length or area, or all the same (the draft)");
   });
-  fields.object("quadrature", "interior quadrature by rays", [&](Fields& f) {
+  fields.object("quadrature", "interior quadrature", [&](Fields& f) {
+    f.choice("method", m.interior_rule.rule, {"rays", "split_rays", "fans", "exact", "resolved"},
+             "rays: the grid below (the paper's); the others reach a tolerance with few points: rays between critical values, a fan about an ellipse where one applies, the cheaper of both; resolved: cells refined until they resolve the weights, default with condensed");
+    f.number("weight_tolerance", m.interior_rule.weight_tolerance, inside_of(0, 1), "", "resolved: relative change that refining cells may still bring");
+    f.number("tolerance", m.interior_rule.tolerance, inside_of(0, 1), "", "not rays: relative error of smooth integrands (moments to degree 6, exp, waves)");
+    f.number("waves", m.interior_rule.waves, inside_of(0, 1000), "", "not rays: waves over the body's largest extent that are resolved");
+    f.integer("fit", m.interior_rule.fit, 0, 20, "> 0: new weights >= 0 that match the boundary's own moments to this degree");
+    f.integer("compress", m.interior_rule.compress, 0, 20, "> 0: few points with weights > 0 and the same moments to this degree");
     f.option("axis", m.rays.axis, DimTraits<Dim>::axes(), "direction of the rays");
     f.integer("rays", m.rays.n_rays, 1, 100000, "rays per transverse direction");
     f.choice("grid", m.rays.grid, {"midpoint", "gauss"}, "where the rays stand");
@@ -97,7 +110,9 @@ void describe_method(Fields& fields, MethodOptions& m) {
       f.reject("points", exact_text(n_rays * m.interval.points) + " on all rays", "at most " + exact_text(max_points));
   });
   fields.object("weights", "blending weights", [&](Fields& f) {
-    f.choice("distance", m.weights.variant, {"published", "draft", "distance_only"}, "formula of the distance weight theta");
+    f.choice("distance", m.weights.variant, {"published", "draft", "distance_only", "sided"}, "formula of the distance weight theta; default with condensed: sided");
+    f.number("side_ramp", m.weights.side_ramp, {0, 1, true, false}, "", "s of the sided weight: it ends where the cosine to the inner normal is -s");
+    f.integer("corner_levels", m.corner_levels, 0, 6, "patches at each re-entrant corner (condensed)");
     if (f.optional("sparsity", m.weights.sparsity.has_value())) {
       if (f.reading() && f.optional("cutoff", false)) f.reject("cutoff", "both cutoff and sparsity", "one of them");
       if (!m.weights.sparsity) m.weights.sparsity = 0.3;
@@ -306,6 +321,7 @@ void describe_scene(Fields& fields, Scene<Dim>& scene, const ShapeLibrary<Dim>& 
   fields.object("method", "the stages of the method", [&](Fields& f) { describe_method<Dim>(f, scene.method); });
   fields.object("stability", "ties the map to the boundary", [&](Fields& f) {
     f.number("stiffness", scene.stability_stiffness, at_least(0), "Pa/m", "gamma of the stability energy; 0: 10 n^2 E / h with E of the first solid and h the mean size of a part");
+    f.number("clamp_penalty", scene.clamp_penalty, positive, "", "beta / n^2 of the condensed formulation's clamps (Nitsche)");
     f.number("kinetic_length", scene.kinetic_length, at_least(0), "m", "l of the kinetic stability term (draft); 0: off");
   });
   fields.vector<Dim>("gravity", scene.gravity, "m/s^2", "acceleration of gravity");

@@ -101,6 +101,7 @@ struct Scene {
   std::vector<SceneSolid<Dim>> solids;
   MethodOptions method;
   double stability_stiffness = 0;  ///< gamma, Pa/m; 0: 10 n^2 E / h, h: mean size of a part
+  double clamp_penalty = 20;       ///< beta / n^2 of the condensed formulation's clamps (clamps.h)
   double kinetic_length = 0;       ///< l of the kinetic stability term, m; 0: off
   Vec<Dim> gravity = Vec<Dim>::Zero();  ///< m/s^2
   std::vector<PointLoad<Dim>> point_loads;

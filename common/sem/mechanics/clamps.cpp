@@ -1,0 +1,171 @@
+#include "sem/mechanics/clamps.h"
+
+#include <limits>
+
+namespace sem {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// One held point, ready for the formulas.
+template <int Dim>
+struct HeldPoint {
+  const MapBlock<Dim>& block;
+  int row;  // in the block
+  Vec<Dim> residual, normal, held;
+  Mat<Dim> F;
+  double weight, penalty;
+  const Material& material;
+  int pin_column;
+};
+
+template <int Dim, class Visit>
+void visit_points(const ClampedPoints<Dim>& points, const VectorXd& z, const Visit& visit) {
+  const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, points.map.n_columns);
+  for (const auto& block : points.map.blocks) {
+    const Points<Dim> local = nodes(Eigen::all, block.columns);
+    for (size_t row = 0; row < block.points.size(); ++row) {
+      const int s = block.points[row];
+      const Vec<Dim> x = local * block.value.row(row).transpose();
+      HeldPoint<Dim> point{block,
+                           int(row),
+                           points.held.col(s).cwiseProduct(x - points.position.col(s) -
+                                                           nodes.col(points.pin_column[s])),
+                           points.normal.col(s),
+                           points.held.col(s),
+                           {},
+                           points.weight[s],
+                           points.penalty[s],
+                           points.material[s],
+                           points.pin_column[s]};
+      for (int b = 0; b < Dim; ++b) point.F.col(b) = local * block.gradient[b].row(row).transpose();
+      visit(point);
+    }
+  }
+}
+
+// K of the penalty beta/(2h) r . K r, held components only.
+template <int Dim>
+Mat<Dim> penalty_matrix(const HeldPoint<Dim>& p) {
+  const Mat<Dim> K = 2 * p.material.lame_mu() * Mat<Dim>::Identity() +
+                     p.material.lame_lambda() * p.normal * p.normal.transpose();
+  return p.penalty * p.held.asDiagonal() * K * p.held.asDiagonal();
+}
+
+// vec(r (x) N).
+template <int Dim>
+Eigen::Matrix<double, Dim * Dim, 1> work_direction(const HeldPoint<Dim>& p) {
+  const Mat<Dim> D = p.residual * p.normal.transpose();
+  return Eigen::Map<const Eigen::Matrix<double, Dim * Dim, 1>>(D.data());
+}
+
+// Derivative of stress_derivative along r (x) N.
+template <int Dim>
+StressDerivative<Dim> third_derivative(const HeldPoint<Dim>& p) {
+  const double size = p.residual.norm(), step = 1e-4;
+  if (is_quadratic(p.material.model) || size == 0) return StressDerivative<Dim>::Zero();
+  const Mat<Dim> D = step * (p.residual / size) * p.normal.transpose();
+  return size / (2 * step) *
+         (stress_derivative<Dim>(p.material, p.F + D) -
+          stress_derivative<Dim>(p.material, p.F - D));
+}
+
+}  // namespace
+
+template <int Dim>
+Clamps<Dim>::Clamps(ClampedPoints<Dim> points, std::vector<HeldControl<Dim>> controls)
+    : points_(std::move(points)), controls_(std::move(controls)) {}
+
+template <int Dim>
+double Clamps<Dim>::energy(const VectorXd& z) const {
+  double sum = 0;
+  visit_points<Dim>(points_, z, [&](const HeldPoint<Dim>& p) {
+    if (!std::isfinite(energy_density<Dim>(p.material, p.F))) {
+      sum = std::numeric_limits<double>::infinity();
+      return;
+    }
+    sum += p.weight * (p.residual.dot(penalty_matrix(p) * p.residual) / 2 -
+                       (first_piola<Dim>(p.material, p.F) * p.normal).dot(p.residual));
+  });
+  for (const auto& spring : controls_) {
+    const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, spring.output.size());
+    const Vec<Dim> r =
+        nodes * spring.output.transpose() - spring.rest - nodes.col(spring.pin_column);
+    sum += spring.stiffness / 2 * spring.held.cwiseProduct(r).squaredNorm();
+  }
+  return sum;
+}
+
+template <int Dim>
+void Clamps<Dim>::add_gradient(const VectorXd& z, VectorXd& g) const {
+  visit_points<Dim>(points_, z, [&](const HeldPoint<Dim>& p) {
+    // dV = force . (dx - dd) - Q : dF with Q = C : (r (x) N).
+    const Vec<Dim> traction = p.held.cwiseProduct(first_piola<Dim>(p.material, p.F) * p.normal);
+    const Vec<Dim> force = p.weight * (penalty_matrix(p) * p.residual - traction);
+    const Eigen::Matrix<double, Dim * Dim, 1> q =
+        stress_derivative<Dim>(p.material, p.F) * work_direction(p);
+    const Mat<Dim> Q = p.weight * Eigen::Map<const Mat<Dim>>(q.data());
+    for (size_t j = 0; j < p.block.columns.size(); ++j) {
+      Vec<Dim> f = p.block.value(p.row, j) * force;
+      for (int b = 0; b < Dim; ++b) f -= p.block.gradient[b](p.row, j) * Q.col(b);
+      g.template segment<Dim>(Dim * p.block.columns[j]) += f;
+    }
+    g.template segment<Dim>(Dim * p.pin_column) -= force;
+  });
+  for (const auto& spring : controls_) {
+    const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, spring.output.size());
+    Eigen::Map<Points<Dim>> out(g.data(), Dim, spring.output.size());
+    const Vec<Dim> r =
+        nodes * spring.output.transpose() - spring.rest - nodes.col(spring.pin_column);
+    const Vec<Dim> force = spring.stiffness * spring.held.cwiseProduct(r);
+    out += force * spring.output;
+    out.col(spring.pin_column) -= force;
+  }
+}
+
+template <int Dim>
+void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, MatrixXd& H) const {
+  // Scalar rows of a point: value and gradients of its columns, then the pin's displacement.
+  visit_points<Dim>(points_, z, [&](const HeldPoint<Dim>& p) {
+    const int n = int(p.block.columns.size()), size = Dim * (n + 1);
+    using Rows = Eigen::Matrix<double, Dim, Eigen::Dynamic>;
+    Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic> dF(Dim * Dim, size);
+    dF.setZero();
+    Rows dr = Rows::Zero(Dim, size);
+    for (int j = 0; j < n; ++j)
+      for (int a = 0; a < Dim; ++a) {
+        dr(a, Dim * j + a) = p.block.value(p.row, j);
+        for (int b = 0; b < Dim; ++b) dF(a + Dim * b, Dim * j + a) = p.block.gradient[b](p.row, j);
+      }
+    for (int a = 0; a < Dim; ++a) dr(a, Dim * n + a) = -1;
+    for (int a = 0; a < Dim; ++a) dr.row(a) *= p.held[a];
+    // T dF = dP N.
+    Eigen::Matrix<double, Dim, Dim* Dim> N = Eigen::Matrix<double, Dim, Dim * Dim>::Zero();
+    for (int a = 0; a < Dim; ++a)
+      for (int b = 0; b < Dim; ++b) N(a, a + Dim * b) = p.normal[b];
+    const MatrixXd dt = N * (stress_derivative<Dim>(p.material, p.F) * dF);
+    MatrixXd local =
+        dr.transpose() * (penalty_matrix(p) * dr) - dr.transpose() * dt - dt.transpose() * dr;
+    if (!approximate) local -= dF.transpose() * (third_derivative(p) * dF);
+    const auto entry = [&](int i) {
+      return Dim * (i < Dim * n ? p.block.columns[i / Dim] : p.pin_column) + i % Dim;
+    };
+    for (int j = 0; j < size; ++j)
+      for (int i = 0; i < size; ++i) H(entry(i), entry(j)) += p.weight * local(i, j);
+  });
+  for (const auto& spring : controls_) {
+    Eigen::RowVectorXd row = spring.output;
+    row[spring.pin_column] -= 1;
+    for (int a = 0; a < Dim; ++a)
+      for (int j = 0; j < row.size(); ++j)
+        for (int i = 0; i < row.size(); ++i)
+          H(Dim * i + a, Dim * j + a) += spring.held[a] * spring.stiffness * row[i] * row[j];
+  }
+}
+
+template class Clamps<2>;
+template class Clamps<3>;
+
+}  // namespace sem

@@ -1,0 +1,62 @@
+#pragma once
+// Where the boundary is held, for unknowns of which it is no entry: Nitsche's method on the map.
+//
+// With the residual r = x(X) - X - d on the held part D of the boundary (components that are not
+// held are left out of r), the outward rest normal N and Lame's constants of the rest shape,
+//   V_D = int_D [ -P(F) N . r + beta/(2 h) (2 mu |r|^2 + lambda (r . N)^2) ] da.
+// V_D is stationary at the exact solution whatever beta is (Nitsche 1971): the first term supplies
+// the reaction that a penalty alone needs a gap for. beta/h must exceed what the inverse inequality
+// of the functions asks for. d is the displacement of the pin, an unknown of its own that is always
+// pinned: the force on it is the pin's reaction.
+
+#include "sem/mechanics/material.h"
+#include "sem/method/discretization.h"
+
+namespace sem {
+
+/// Points of the boundary at which the map is held.
+template <int Dim>
+struct ClampedPoints {
+  Map<Dim> map;                    ///< value and gradient there
+  Points<Dim> position, normal;    ///< rest position; outward unit normal
+  Eigen::VectorXd weight;          ///< da, m^(Dim-1)
+  Eigen::VectorXd penalty;         ///< beta / h, 1/m
+  std::vector<Material> material;  ///< #points
+  Points<Dim> held;                ///< 1 where a component is held, 0 where it is free
+  std::vector<int> pin_column;     ///< #points: column of z that is the pin's displacement d
+
+  int size() const { return int(weight.size()); }
+};
+
+/// A control point p_j = S_j z held by a spring, stiffness/2 |p_j - P_j - d|^2: for pins that hold
+/// no stretch of boundary (a corner, one control point).
+template <int Dim>
+struct HeldControl {
+  Eigen::RowVectorXd output;  ///< S_j, n_columns
+  Vec<Dim> rest;              ///< P_j, m
+  Vec<Dim> held;              ///< 1 or 0 per component
+  int pin_column;
+  double stiffness;  ///< N/m (2D: per unit thickness)
+};
+
+/// V_D and the springs, with gradient and Hessian in z.
+template <int Dim>
+class Clamps {
+ public:
+  Clamps() = default;
+  Clamps(ClampedPoints<Dim> points, std::vector<HeldControl<Dim>> controls);
+
+  bool empty() const { return points_.size() == 0 && controls_.empty(); }
+  /// +infinity where a held point is outside of its material's domain.
+  double energy(const Eigen::VectorXd& z) const;
+  void add_gradient(const Eigen::VectorXd& z, Eigen::VectorXd& g) const;
+  /// The third derivative of Psi, which -P(F) N . r brings, by central differences of its second
+  /// along r (x) N: exact to 1e-8 of a term that vanishes with r. `approximate`: without it.
+  void add_hessian(const Eigen::VectorXd& z, bool approximate, Eigen::MatrixXd& H) const;
+
+ private:
+  ClampedPoints<Dim> points_;
+  std::vector<HeldControl<Dim>> controls_;
+};
+
+}  // namespace sem

@@ -1,0 +1,215 @@
+#include "sem/method/coefficients.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sem/base/error.h"
+#include "sem/method/least_squares.h"
+
+namespace sem {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// A centre and a length per part: mean and root mean square distance of X under w_i.
+template <int Dim>
+struct Frames {
+  Points<Dim> center;
+  VectorXd length;
+};
+
+template <int Dim>
+Frames<Dim> weight_frames(const Points<Dim>& position, const VectorXd& volume,
+                          const BlendingWeights<Dim>& weights) {
+  Frames<Dim> frames{Points<Dim>::Zero(Dim, weights.n_parts), VectorXd::Ones(weights.n_parts)};
+  VectorXd total = VectorXd::Zero(weights.n_parts), second = total;
+  const auto for_each = [&](const auto& add) {
+    for (int k = 0; k < weights.n_points(); ++k)
+      for (int e = weights.begin[k]; e < weights.begin[k + 1]; ++e)
+        add(weights.part[e], volume[k] * weights.w[e], Vec<Dim>(position.col(k)));
+  };
+  for_each([&](int i, double v, const Vec<Dim>& X) {
+    total[i] += v;
+    frames.center.col(i) += v * X;
+  });
+  for (int i = 0; i < weights.n_parts; ++i)
+    if (total[i] > 0) frames.center.col(i) /= total[i];
+  for_each([&](int i, double v, const Vec<Dim>& X) {
+    second[i] += v * (X - frames.center.col(i)).squaredNorm();
+  });
+  for (int i = 0; i < weights.n_parts; ++i)
+    if (second[i] > 0) frames.length[i] = std::sqrt(second[i] / total[i]);
+  return frames;
+}
+
+// The columns of part i: the affine field (Dim + 1 of them), then the kept ones among its own
+// functions 1, m_1, m_2, ...; `column_of[f]` is the column of its f-th function, -1: left out.
+template <int Dim>
+PartFit fit_of_columns(const Monomials<Dim>& monomials, const Vec<Dim>& center, double length,
+                       const Vec<Dim>& middle, double size, const std::vector<int>& column_of) {
+  PartFit fit;
+  fit.scale = length;
+  for (int a = 0; a <= Dim; ++a) fit.columns.push_back(a);
+  for (const int column : column_of)
+    if (column >= 0) fit.columns.push_back(column);
+  fit.coefficients = MatrixXd::Zero(monomials.size(), fit.columns.size());
+  fit.translation = Eigen::RowVectorXd::Zero(fit.columns.size());
+  // Column 0: the field 1. Column 1 + a: (X_a - middle_a) / size in the part's own monomials.
+  fit.translation[0] = 1;
+  for (int m = monomials.first(1); m < monomials.first(2); ++m)
+    for (int a = 0; a < Dim; ++a)
+      if (monomials.exponent(m)[a] == 1) fit.coefficients(m, 1 + a) = length / size;
+  for (int a = 0; a < Dim; ++a) fit.translation[1 + a] = (center[a] - middle[a]) / size;
+  int c = Dim + 1;
+  for (size_t f = 0; f < column_of.size(); ++f) {
+    if (column_of[f] < 0) continue;
+    (f == 0 ? fit.translation[c] : fit.coefficients(int(f) - 1, c)) = 1;
+    ++c;
+  }
+  return fit;
+}
+
+// Sum of grad . grad + value value / size^2 over the points.
+template <int Dim>
+MatrixXd gram_matrix(const Map<Dim>& map, const VectorXd& volume, double size) {
+  MatrixXd G = MatrixXd::Zero(map.n_columns, map.n_columns);
+  for (const auto& block : map.blocks) {
+    const VectorXd v = volume(block.points);
+    MatrixXd sum = block.value.transpose() * (v / (size * size)).asDiagonal() * block.value;
+    for (int axis = 0; axis < Dim; ++axis)
+      sum += block.gradient[axis].transpose() * v.asDiagonal() * block.gradient[axis];
+    G(block.columns, block.columns) += sum;
+  }
+  return G;
+}
+
+// Indices of rows of the positive semi-definite G that are independent: the first n_first, then by
+// the largest remaining diagonal. G is scaled to a unit diagonal first and destroyed.
+std::vector<int> independent_rows(MatrixXd& G, int n_first, double tolerance) {
+  const int n = int(G.rows());
+  const VectorXd scale =
+      G.diagonal().unaryExpr([](double g) { return g > 0 ? 1 / std::sqrt(g) : 0.0; });
+  G = scale.asDiagonal() * G * scale.asDiagonal();
+  MatrixXd L(n, n);
+  VectorXd left = G.diagonal();
+  std::vector<int> chosen;
+  while (int(chosen.size()) < n) {
+    int pivot = int(chosen.size());
+    if (pivot >= n_first) left.maxCoeff(&pivot);
+    if (!(left[pivot] > tolerance)) break;
+    const int c = int(chosen.size());
+    L.col(c) =
+        (G.col(pivot) - L.leftCols(c) * L.row(pivot).head(c).transpose()) / std::sqrt(left[pivot]);
+    left -= L.col(c).cwiseAbs2();
+    left[pivot] = -1;
+    chosen.push_back(pivot);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+template <int Dim>
+FreeCoefficients<Dim> free_coefficients(const Points<Dim>& position, const VectorXd& volume,
+                                        const BlendingWeights<Dim>& weights, int degree,
+                                        double tolerance) {
+  if (degree < 1 || degree > 4)
+    throw InputError("", "method.degree", std::to_string(degree), "1 to 4");
+  FreeCoefficients<Dim> free;
+  free.projection.monomials = Monomials<Dim>(degree);
+  const int n_parts = weights.n_parts, n_functions = free.projection.monomials.size() + 1;
+  const Frames<Dim> frames = weight_frames(position, volume, weights);
+  free.origins.position = frames.center;
+  for (int i = 0; i < n_parts; ++i) {
+    free.origins.members.push_back({i});
+    free.origins.of_part.push_back(i);
+  }
+  const Vec<Dim> lower = position.rowwise().minCoeff(), upper = position.rowwise().maxCoeff();
+  const Vec<Dim> middle = (lower + upper) / 2;
+  const double size = (upper - lower).norm();
+  std::vector<int> column_of(n_parts * n_functions);
+  for (size_t f = 0; f < column_of.size(); ++f) column_of[f] = Dim + 1 + int(f);
+  const auto set_columns = [&] {
+    free.projection.parts.clear();
+    for (int i = 0; i < n_parts; ++i)
+      free.projection.parts.push_back(fit_of_columns<Dim>(
+          free.projection.monomials, frames.center.col(i), frames.length[i], middle, size,
+          {column_of.begin() + i * n_functions, column_of.begin() + (i + 1) * n_functions}));
+  };
+  set_columns();
+  free.n_candidates = Dim + 1 + int(column_of.size());
+  MatrixXd G = gram_matrix(
+      blended_map(position, weights, free.origins, free.projection, free.n_candidates, true),
+      volume, size);
+  std::vector<int> chosen = independent_rows(G, Dim + 1, tolerance);
+  std::sort(chosen.begin(), chosen.end());
+  std::fill(column_of.begin(), column_of.end(), -1);
+  for (int c = Dim + 1; c < int(chosen.size()); ++c) column_of[chosen[c] - (Dim + 1)] = c;
+  set_columns();
+
+  const int n = int(chosen.size());
+  free.unknowns.one = VectorXd::Unit(n, 0);
+  free.unknowns.rest = Points<Dim>::Zero(Dim, n);
+  free.unknowns.rest.col(0) = middle;
+  for (int a = 0; a < Dim; ++a) free.unknowns.rest(a, 1 + a) = size;
+  return free;
+}
+
+template <int Dim>
+MatrixXd boundary_output(const Samples<Dim>& samples, const Map<Dim>& on_boundary, int n_controls) {
+  const MatrixXd gamma = dense_value(on_boundary);
+  const MatrixXd J = sample_jacobian(samples, n_controls);
+  MatrixXd S = MatrixXd::Zero(n_controls, on_boundary.n_columns);
+  for (size_t i = 0; i + 1 < samples.first.size(); ++i) {
+    const int first = samples.first[i], n = samples.first[i + 1] - first;
+    std::vector<int> controls(samples.column.begin() + samples.row[first],
+                              samples.column.begin() + samples.row[first + n]);
+    std::sort(controls.begin(), controls.end());
+    controls.erase(std::unique(controls.begin(), controls.end()), controls.end());
+    const VectorXd root = samples.weight.segment(first, n).cwiseSqrt();
+    const MatrixXd weighted = root.asDiagonal() * J(Eigen::seqN(first, n), controls);
+    const MatrixXd image = root.asDiagonal() * gamma.middleRows(first, n);
+    const MatrixXd fitted = least_squares(weighted, image);
+    S(controls, Eigen::all) = fitted;
+  }
+  return S;
+}
+
+template <int Dim>
+double satisfy_divergence_theorem(Map<Dim>& interior, const VectorXd& volume, const Points<Dim>& flux) {
+  Points<Dim> missing = flux;
+  VectorXd support = VectorXd::Zero(interior.n_columns);
+  for (const auto& block : interior.blocks) {
+    const VectorXd v = volume(block.points);
+    for (size_t j = 0; j < block.columns.size(); ++j) {
+      support[block.columns[j]] += v.sum();
+      for (int a = 0; a < Dim; ++a) missing(a, block.columns[j]) -= v.dot(block.gradient[a].col(j));
+    }
+  }
+  // Columns 0 to Dim are 1 and X / size: their gradients are exact, what is missing is the boundary's fault.
+  const double total = volume.sum();
+  const double slope = std::abs(flux(0, 1) - missing(0, 1)) / total;  // 1 / size
+  if (!(missing.leftCols(Dim + 1).cwiseAbs().maxCoeff() <= 1e-3 * slope * total))
+    return std::numeric_limits<double>::infinity();
+  double largest = 0;
+  for (auto& block : interior.blocks)
+    for (size_t j = 0; j < block.columns.size(); ++j) {
+      const int column = block.columns[j];
+      if (column <= Dim || !(support[column] > 0)) continue;
+      const Vec<Dim> correction = missing.col(column) / support[column];
+      largest = std::max(largest, correction.norm() * std::pow(support[column], 1.0 / Dim));
+      for (int a = 0; a < Dim; ++a) block.gradient[a].col(j).array() += correction[a];
+    }
+  return largest;
+}
+
+#define SEM_INSTANTIATE(Dim)                                                                       \
+  template FreeCoefficients<Dim> free_coefficients<Dim>(const Points<Dim>&, const VectorXd&,       \
+                                                        const BlendingWeights<Dim>&, int, double); \
+  template double satisfy_divergence_theorem<Dim>(Map<Dim>&, const VectorXd&, const Points<Dim>&);    \
+  template MatrixXd boundary_output<Dim>(const Samples<Dim>&, const Map<Dim>&, int);
+SEM_INSTANTIATE(2)
+SEM_INSTANTIATE(3)
+
+}  // namespace sem
