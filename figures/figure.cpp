@@ -19,6 +19,7 @@ const std::vector<Figure>& all_figures() {
                                               quadrature_convergence(),
                                               patch_test(),
                                               deflection_parts(),
+                                              condensed_convergence(),
                                               stiffness_sparsity(),
                                               nonzeros_step_time(),
                                               pruning(),

@@ -57,6 +57,7 @@ Figure projection_blocks();
 Figure quadrature_convergence();
 Figure patch_test();
 Figure deflection_parts();
+Figure condensed_convergence();
 Figure stiffness_sparsity();
 Figure nonzeros_step_time();
 Figure pruning();

@@ -72,6 +72,7 @@ std::vector<Change<Dim>> changes_for(const Scene<Dim>& scene, const Model<Dim>& 
   changes.push_back({"twice the rays and points", [](Scene<Dim>& s) {
     s.method.rays.n_rays *= 2;
     s.method.interval.points *= 2;
+    s.method.interior_rule.weight_tolerance /= 10;
     s.method.interval.spacing /= 2;
     s.method.interior_rule.waves *= 2;
     s.method.interior_rule.compress *= 2;
@@ -80,8 +81,11 @@ std::vector<Change<Dim>> changes_for(const Scene<Dim>& scene, const Model<Dim>& 
   for (const auto& pin : scene.pins) by_index |= !pin.where.control_points.empty();
   if (!by_index) changes.push_back({"every part halved", [](Scene<Dim>& s) { halve_parts(s); }});
   const double gamma = model.stability_stiffness, cutoff = model.discretization.theta.cutoff;
-  changes.push_back({"twice the stability stiffness",
-                     [=](Scene<Dim>& s) { s.stability_stiffness = 2 * gamma; }});
+  if (scene.method.formulation == Formulation::condensed)
+    changes.push_back({"twice the clamps' penalty", [](Scene<Dim>& s) { s.clamp_penalty *= 2; }});
+  else
+    changes.push_back({"twice the stability stiffness",
+                       [=](Scene<Dim>& s) { s.stability_stiffness = 2 * gamma; }});
   changes.push_back({"1.5 times the cutoff", [=](Scene<Dim>& s) {
     s.method.weights.sparsity.reset();
     s.method.weights.cutoff = 1.5 * cutoff;

@@ -28,7 +28,7 @@ struct ErrorEstimate {
 
 /// Nothing to judge (no probes, and no modes): no columns, and nothing is run. Otherwise
 /// repeats the analysis with: twice the rays and points; every part halved;
-/// twice gamma; 1.5 times the cutoff; one polynomial degree more (one less at
+/// twice gamma (condensed: the clamps' penalty); 1.5 times the cutoff; one polynomial degree more (one less at
 /// degree 4); half the time step (dynamics).
 template <int Dim>
 ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file);
