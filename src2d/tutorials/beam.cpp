@@ -224,27 +224,37 @@ std::vector<std::string> row(const Answer& answer) {
 
 namespace {
 
-// The boundary for one load over the reference's in gray, enlarged, in a rectangle.
+// The boundary for one load over the reference's in gray, enlarged, in a rectangle; an answer too
+// large for it is drawn smaller, with a note.
 void draw_answer(Picture& picture, const Beam& beam, const Answer& answer, const Answer& reference,
                  int load, const Color& color, const Box<2>& rectangle) {
   const double largest[] = {0.5, 0.9, 0.25};  // m on the picture
   const double scale = largest[load] / reference.u[load].colwise().norm().maxCoeff();
   picture.set_view({{-0.2, -1.0}, {beam.length + 1.3, beam.height + 0.2}}, rectangle);
+  const bool holds = answer.holds[load];
+  const double size = holds ? scale * answer.u[load].colwise().norm().maxCoeff() : 0;
+  const double shrink = size > 1.25 ? largest[load] / size : 1;
+  if (shrink < 1) {
+    const double left = rectangle.lower[0] + 0.4 * (rectangle.upper[0] - rectangle.lower[0]);
+    picture.canvas().text({left, rectangle.upper[1] - 6},
+                          "drawn at " + rounded(100 * shrink, 2) + " %",
+                          {.size = 13, .color = color});
+  }
   picture.canvas().push_clip(rectangle);
   for (const Answer* which : {&reference, &answer}) {
     if (!which->holds[load]) continue;
+    const double enlarged = which == &answer ? scale * shrink : scale;
     auto loop = Polyline();
     for (int i = 0; i < beam.X.cols(); ++i)
-      loop.push_back(picture.view().map(Vec<2>(beam.X.col(i) + scale * which->u[load].col(i))));
+      loop.push_back(picture.view().map(Vec<2>(beam.X.col(i) + enlarged * which->u[load].col(i))));
     if (which == &reference)
       picture.canvas().fill(loop, colors::light_gray);
     else
       picture.canvas().stroke(loop, {.color = color, .width = 3, .closed = true});
   }
   picture.canvas().pop_clip();
-  const bool holds = answer.holds[load];
   const Points<2> truth = reference.u[load];
-  const Points<2> shown = beam.X + scale * (holds ? answer.u[load] : truth);
+  const Points<2> shown = beam.X + (holds ? shrink * scale * answer.u[load] : scale * truth);
   picture.hover(shown, [=, name = answer.name, u = answer.u[load]](int i) {
     const std::string own = holds ? coordinates(u.col(i)) + " m" : "no answer";
     return name + ": u = " + own + "\nreference: " + coordinates(truth.col(i)) + " m";
