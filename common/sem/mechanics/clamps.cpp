@@ -127,33 +127,38 @@ void Clamps<Dim>::add_gradient(const VectorXd& z, VectorXd& g) const {
 
 template <int Dim>
 void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, MatrixXd& H) const {
-  // Scalar rows of a point: value and gradients of its columns, then the pin's displacement.
   visit_points<Dim>(points_, z, [&](const HeldPoint<Dim>& p) {
-    const int n = int(p.block.columns.size()), size = Dim * (n + 1);
-    using Rows = Eigen::Matrix<double, Dim, Eigen::Dynamic>;
-    Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic> dF(Dim * Dim, size);
-    dF.setZero();
-    Rows dr = Rows::Zero(Dim, size);
-    for (int j = 0; j < n; ++j)
-      for (int a = 0; a < Dim; ++a) {
-        dr(a, Dim * j + a) = p.block.value(p.row, j);
-        for (int b = 0; b < Dim; ++b) dF(a + Dim * b, Dim * j + a) = p.block.gradient[b](p.row, j);
+    const auto& block = p.block;
+    const int n = int(block.columns.size());
+    const Mat<Dim> K = penalty_matrix(p);
+    const StressDerivative<Dim> C = stress_derivative<Dim>(p.material, p.F);
+    const StressDerivative<Dim> D =
+        approximate ? StressDerivative<Dim>::Zero().eval() : third_derivative(p);
+    // Traction on held components by the column j: held dP N = T_j dz_j. The last one is the pin's
+    // displacement.
+    std::vector<Mat<Dim>> T(n + 1, Mat<Dim>::Zero());
+    std::vector<double> value(n + 1, -1);
+    std::vector<int> column(n + 1, p.pin_column);
+    for (int j = 0; j < n; ++j) {
+      value[j] = block.value(p.row, j);
+      column[j] = block.columns[j];
+      for (int a = 0; a < Dim; ++a)
+        for (int c = 0; c < Dim; ++c)
+          for (int b = 0; b < Dim; ++b)
+            for (int d = 0; d < Dim; ++d)
+              T[j](a, c) += p.held[a] * p.normal[b] * C(a + Dim * b, c + Dim * d) *
+                            block.gradient[d](p.row, j);
+    }
+    for (int j = 0; j <= n; ++j)
+      for (int m = 0; m <= n; ++m) {
+        Mat<Dim> local = value[m] * value[j] * K - value[m] * T[j] - value[j] * T[m].transpose();
+        if (!approximate && m < n && j < n)
+          for (int b = 0; b < Dim; ++b)
+            for (int d = 0; d < Dim; ++d)
+              local -= block.gradient[b](p.row, m) * block.gradient[d](p.row, j) *
+                       D.template block<Dim, Dim>(Dim * b, Dim * d);
+        H.template block<Dim, Dim>(Dim * column[m], Dim * column[j]) += p.weight * local;
       }
-    for (int a = 0; a < Dim; ++a) dr(a, Dim * n + a) = -1;
-    for (int a = 0; a < Dim; ++a) dr.row(a) *= p.held[a];
-    // T dF = dP N.
-    Eigen::Matrix<double, Dim, Dim* Dim> N = Eigen::Matrix<double, Dim, Dim * Dim>::Zero();
-    for (int a = 0; a < Dim; ++a)
-      for (int b = 0; b < Dim; ++b) N(a, a + Dim * b) = p.normal[b];
-    const MatrixXd dt = N * (stress_derivative<Dim>(p.material, p.F) * dF);
-    MatrixXd local =
-        dr.transpose() * (penalty_matrix(p) * dr) - dr.transpose() * dt - dt.transpose() * dr;
-    if (!approximate) local -= dF.transpose() * (third_derivative(p) * dF);
-    const auto entry = [&](int i) {
-      return Dim * (i < Dim * n ? p.block.columns[i / Dim] : p.pin_column) + i % Dim;
-    };
-    for (int j = 0; j < size; ++j)
-      for (int i = 0; i < size; ++i) H(entry(i), entry(j)) += p.weight * local(i, j);
   });
   for (const auto& spring : controls_) {
     Eigen::RowVectorXd row = spring.output;
