@@ -1,7 +1,5 @@
 #include "sem/method/moment_rules.h"
 
-#include <Eigen/QR>
-
 #include "sem/method/least_squares.h"
 #include "sem/method/monomials.h"
 #include "sem/method/nnls.h"
@@ -37,24 +35,16 @@ double largest_error(const MatrixXd& V, const VectorXd& weight, const VectorXd& 
 
 // The monomials made orthonormal in a rule.
 struct OrthonormalBasis {
-  MatrixXd values;  // #points by rank
-  Eigen::ColPivHouseholderQR<MatrixXd> qr;
+  MatrixXd values;        // #points by rank
+  MatrixXd of_monomials;  // moments of the monomials = of_monomials * moments of the basis
 
-  OrthonormalBasis(const MatrixXd& V, const VectorXd& weight)
-      : qr(weight.cwiseSqrt().asDiagonal() * V) {
-    const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(V.rows(), qr.rank());
+  OrthonormalBasis(const MatrixXd& V, const VectorXd& weight) {
+    const MatrixXd scaled = weight.cwiseSqrt().asDiagonal() * V, Q = orthonormal_columns(scaled);
     values = weight.cwiseSqrt().cwiseInverse().asDiagonal() * Q;
+    of_monomials = scaled.transpose() * Q;
   }
   // Moments of the basis from those of the monomials.
-  VectorXd moments(const VectorXd& of_monomials) const {
-    const auto rank = qr.rank();
-    const VectorXd permuted = qr.colsPermutation().transpose() * of_monomials;
-    return qr.matrixR()
-        .topLeftCorner(rank, rank)
-        .template triangularView<Eigen::Upper>()
-        .transpose()
-        .solve(permuted.head(rank));
-  }
+  VectorXd moments(const VectorXd& monomials) const { return least_squares(of_monomials, monomials); }
 };
 
 template <int Dim>
