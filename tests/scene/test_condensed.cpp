@@ -3,6 +3,8 @@
 
 #include "bodies.h"
 #include "dims.h"
+#include "sem/base/error.h"
+#include "sem/scene/accuracy.h"
 #include "sem/scene/analysis.h"
 #include "sem/scene/monitor.h"
 #include "sem/solve/modes.h"
@@ -184,4 +186,20 @@ TEST_CASE("release from rest: the tip falls freely until the clamp's wave arrive
   CHECK(uy[0] == doctest::Approx(-0.05).epsilon(2e-3));
   CHECK(uy[1] == doctest::Approx(-0.20).epsilon(2e-3));
   CHECK(uy[2] == doctest::Approx(-0.4505).epsilon(5e-3));
+}
+
+TEST_CASE_TEMPLATE("the report of a condensed model: identity exact, corrections small and stated", T, D2, D3) {
+  constexpr int Dim = T::value;
+  const auto model = build_model(condensed_box<Dim>(MaterialModel::linear), "");
+  const Accuracy<Dim> accuracy = measure_accuracy(*model);
+  CHECK(accuracy.identity_error < 1e-13);
+  CHECK(accuracy.identity_gradient_error < 1e-12);
+  CHECK(accuracy.divergence_correction > 0);
+  CHECK(accuracy.divergence_correction < 0.5);
+}
+
+TEST_CASE("resolved rules refuse moment fitting and compression, which know no kinks") {
+  Scene<2> scene = condensed_box<2>(MaterialModel::linear);
+  scene.method.interior_rule.compress = 4;
+  CHECK_THROWS_AS(build_model(scene, ""), InputError);
 }

@@ -63,6 +63,7 @@ double InternalEnergy<Dim>::elastic_energy(const VectorXd& z) {
 
 template <int Dim>
 double InternalEnergy<Dim>::stability_energy(const VectorXd& z) {
+  if (stability_.size() == 0) return 0;
   const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, map_.n_columns);
   stability_force_.noalias() = nodes * stability_;
   return stability_force_.cwiseProduct(nodes).sum() / 2;
@@ -78,7 +79,10 @@ template <int Dim>
 void InternalEnergy<Dim>::gradient(const VectorXd& z, VectorXd& g) {
   const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, map_.n_columns);
   Eigen::Map<Points<Dim>> out(g.data(), Dim, map_.n_columns);
-  out.noalias() = nodes * stability_;
+  if (stability_.size() > 0)
+    out.noalias() = nodes * stability_;
+  else
+    out.setZero();
   for (size_t i = 0; i < work_.size(); ++i) {
     const auto& block = map_.blocks[i];
     Workspace& work = work_[i];
@@ -98,8 +102,8 @@ void InternalEnergy<Dim>::gradient(const VectorXd& z, VectorXd& g) {
 template <int Dim>
 void InternalEnergy<Dim>::hessian(const VectorXd& z, bool psd, MatrixXd& H) {
   H.setZero();
-  for (int j = 0; j < map_.n_columns; ++j)
-    for (int i = 0; i < map_.n_columns; ++i)
+  for (int j = 0; j < stability_.cols(); ++j)
+    for (int i = 0; i < stability_.rows(); ++i)
       for (int a = 0; a < Dim; ++a) H(Dim * i + a, Dim * j + a) = stability_(i, j);
   for (size_t i = 0; i < work_.size(); ++i) {
     const auto& block = map_.blocks[i];

@@ -27,7 +27,7 @@ template <int Dim>
 class InternalEnergy : public Potential {
  public:
   /// map: B at the quadrature points (kept by reference); weight: v_k;
-  /// stability: gamma S, scalar, n_columns by n_columns, Pa (2D) or Pa m. clamps: V_D, added to V.
+  /// stability: gamma S, scalar, n_columns by n_columns, Pa (2D) or Pa m; empty: none. clamps: V_D, added to V.
   InternalEnergy(const Map<Dim>& map, const Eigen::VectorXd& weight, const MaterialField& materials,
                  const Eigen::MatrixXd& stability, Clamps<Dim> clamps = {});
 

@@ -138,9 +138,9 @@ FreeCoefficients<Dim> free_coefficients(const Points<Dim>& position, const Vecto
           {column_of.begin() + i * n_functions, column_of.begin() + (i + 1) * n_functions}));
   };
   set_columns();
-  free.n_candidates = Dim + 1 + int(column_of.size());
+  const int n_candidates = Dim + 1 + int(column_of.size());
   MatrixXd G = gram_matrix(
-      blended_map(position, weights, free.origins, free.projection, free.n_candidates, true),
+      blended_map(position, weights, free.origins, free.projection, n_candidates, true),
       volume, size);
   std::vector<int> chosen = independent_rows(G, Dim + 1, tolerance);
   std::sort(chosen.begin(), chosen.end());

@@ -21,7 +21,6 @@ struct FreeCoefficients {
   Projection<Dim>
       projection;  ///< c_i and t_i are the unknowns of part i themselves and the affine field's
   Unknowns<Dim> unknowns;  ///< S empty until boundary_output
-  int n_candidates = 0;    ///< before dependent functions were left out
 };
 
 /// Chooses the unknowns by a Cholesky factorisation with pivots of the candidates' Gram matrix

@@ -147,6 +147,9 @@ Discretization<Dim> discretize(const std::vector<std::vector<Nurbs<Dim - 1, Dim>
   const bool resolved = options.interior_rule.rule == InteriorRule::resolved;
   if (resolved && options.weights.sparsity)
     throw InputError("", "method.weights.sparsity", "a sparsity with quadrature 'resolved'", "a cutoff");
+  if (resolved && (options.interior_rule.fit > 0 || options.interior_rule.compress > 0))
+    throw InputError("", "method.quadrature.method", "'resolved' with fit or compress",
+                     "one of the other rules: moments do not tell where weights have kinks");
   if (options.formulation == Formulation::condensed)
     d.corners = find_corners(d.boundary, d.loops, options.weights.cutoff, options.corner_levels);
   d.quadrature = timed(d.cost, "interior quadrature", [&] {

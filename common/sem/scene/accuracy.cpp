@@ -80,7 +80,7 @@ Accuracy<Dim> measure_accuracy(const Model<Dim>& model) {
   a.gap_share = d.rays.capped_length / a.quadrature.volume;
   const Points<Dim> x = evaluate(d.interior, model.system.rest);
   a.identity_error = (x - d.quadrature.position).colwise().norm().maxCoeff() / size;
-  const Points<Dim> p = rest_controls(d.boundary);
+  const Points<Dim>& p = d.unknowns.rest;
   for (int axis = 0; axis < Dim; ++axis)
     for (const auto& block : d.interior.blocks) {
       Points<Dim> column = p(Eigen::all, block.columns) * block.gradient[axis].transpose();
@@ -92,6 +92,7 @@ Accuracy<Dim> measure_accuracy(const Model<Dim>& model) {
     a.n_borrowed += fit.borrowed;
   }
   a.pruning_error = d.pruning.relative_error;
+  a.divergence_correction = d.divergence_correction;
   return a;
 }
 
@@ -135,8 +136,12 @@ nlohmann::ordered_json to_json(const Accuracy<Dim>& a) {
     rule["boundary_truth"] = "not available: the boundary does not determine the body (gaps, undecided "
                              "orientation or overlapping solids)";
   }
+  if (a.report.error > 0) rule["estimated_error"] = a.report.error;
+  if (std::isinf(a.divergence_correction))
+    rule["divergence_correction"] = "not applied: gaps or overlaps";
+  else if (a.divergence_correction > 0)
+    rule["divergence_correction"] = a.divergence_correction;
   if (!a.report.components.empty()) {
-    rule["estimated_error"] = a.report.error;
     for (const auto& component : a.report.components)
       rule["components"].push_back({{"rule", component.rule},
                                     {"cells", component.n_cells},

@@ -24,6 +24,7 @@ struct Accuracy {
   double identity_gradient_error = 0; ///< largest |F - I| of the undeformed map
   double worst_fit_condition = 0;     ///< over the parts' linear fits
   int n_borrowed = 0;                 ///< parts whose linear fit borrowed from their origin's set
+  double divergence_correction = 0;   ///< condensed: see satisfy_divergence_theorem
   double pruning_error = 0;           ///< draft eq. 14, 0 without
 };
 

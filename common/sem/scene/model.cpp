@@ -103,7 +103,7 @@ class Builder {
     }
     model_->energy = std::make_unique<InternalEnergy<Dim>>(
         d.interior, d.quadrature.weight, model_->materials,
-        (condensed() ? 0 : model_->stability_stiffness) * model_->stability,
+        condensed() ? Eigen::MatrixXd() : model_->stability_stiffness * model_->stability,
         condensed() ? make_clamps() : Clamps<Dim>());
     System& system = model_->system;
     system.potential = model_->energy.get();
@@ -169,51 +169,77 @@ class Builder {
   // those of its control points that neither lie nor coincide with one there.
   Clamps<Dim> make_clamps() const {
     const auto& d = model_->discretization;
-    const int degree = d.projection.monomials.degree();
     const BoundaryRule<Dim> rule = boundary_rule(d);
-    const Samples<Dim>& samples = rule.samples;
-    std::vector<int> chosen;
-    ClampedPoints<Dim> points;
-    std::vector<HeldControl<Dim>> controls;
-    std::vector<Vec<Dim>> held_axes;
+    const auto coincident = coincident_controls(d.boundary);
+    std::vector<HeldSample> held_samples;
+    std::vector<HeldControl<Dim>> springs;
     for (size_t i = 0; i < scene_.pins.size(); ++i) {
-      const auto& held = model_->held[i].controls;
-      Vec<Dim> axes;
-      for (int a = 0; a < Dim; ++a) axes[a] = scene_.pins[i].axes[a];
-      std::set<int> covered;
-      for (int s = 0; s < samples.size(); ++s) {
-        const auto begin = samples.column.begin() + samples.row[s], end = samples.column.begin() + samples.row[s + 1];
-        if (!std::all_of(begin, end, [&](int c) { return std::binary_search(held.begin(), held.end(), c); })) continue;
-        covered.insert(begin, end);
-        chosen.push_back(s);
-        points.pin_column.push_back(first_pin_column_ + int(i));
-        held_axes.push_back(axes);
-      }
-      for (const auto& group : coincident_controls(d.boundary))
+      std::set<int> covered = hold_samples(rule.samples, int(i), held_samples);
+      for (const auto& group : coincident)
         if (std::any_of(group.begin(), group.end(), [&](int c) { return covered.count(c) > 0; }))
           covered.insert(group.begin(), group.end());
-      for (const int c : held) {
-        if (covered.count(c)) continue;
-        const double size = std::pow(d.boundary.box.diagonal(), Dim - 2);
-        controls.push_back({d.unknowns.S.row(c), rest_controls(d.boundary).col(c), axes, first_pin_column_ + int(i),
-                            100 * scene_.solids[d.boundary.solid[part_of_control(c)]].material.youngs_modulus * size});
-      }
+      for (const int control : model_->held[i].controls)
+        if (!covered.count(control)) springs.push_back(spring(control, int(i)));
     }
-    points.position = samples.position(Eigen::all, chosen);
-    points.weight = samples.weight(chosen);
-    points.normal.resize(Dim, chosen.size());
-    points.held.resize(Dim, chosen.size());
-    points.penalty.resize(chosen.size());
-    for (size_t k = 0; k < chosen.size(); ++k) {
-      const int part = samples.part[chosen[k]];
-      const double measure = samples.weight.segment(samples.first[part], samples.first[part + 1] - samples.first[part]).sum();
-      points.normal.col(k) = rule.normal.col(chosen[k]);
-      points.held.col(k) = held_axes[k];
+    return Clamps<Dim>(clamped_points(rule, held_samples), std::move(springs));
+  }
+
+  struct HeldSample {
+    int sample, pin;
+  };
+
+  // Appends the samples that depend on held control points alone; returns these control points.
+  std::set<int> hold_samples(const Samples<Dim>& samples, int pin, std::vector<HeldSample>& out) const {
+    const auto& held = model_->held[pin].controls;
+    std::set<int> covered;
+    for (int s = 0; s < samples.size(); ++s) {
+      const auto begin = samples.column.begin() + samples.row[s], end = samples.column.begin() + samples.row[s + 1];
+      if (!std::all_of(begin, end, [&](int c) { return std::binary_search(held.begin(), held.end(), c); })) continue;
+      covered.insert(begin, end);
+      out.push_back({s, pin});
+    }
+    return covered;
+  }
+
+  ClampedPoints<Dim> clamped_points(const BoundaryRule<Dim>& rule, const std::vector<HeldSample>& held) const {
+    const auto& d = model_->discretization;
+    const Samples<Dim>& samples = rule.samples;
+    const int n = int(held.size()), degree = d.projection.monomials.degree();
+    ClampedPoints<Dim> points;
+    for (Points<Dim>* list : {&points.position, &points.normal, &points.held}) list->resize(Dim, n);
+    points.weight.resize(n);
+    points.penalty.resize(n);
+    for (int k = 0; k < n; ++k) {
+      const int s = held[k].sample, part = samples.part[s], first = samples.first[part];
+      const double measure = samples.weight.segment(first, samples.first[part + 1] - first).sum();
+      points.position.col(k) = samples.position.col(s);
+      points.normal.col(k) = rule.normal.col(s);
+      points.held.col(k) = held_axes(held[k].pin);
+      points.weight[k] = samples.weight[s];
       points.penalty[k] = scene_.clamp_penalty * degree * degree / std::pow(measure, 1.0 / (Dim - 1));
-      points.material.push_back(part_materials_[part] ? *part_materials_[part] : scene_.solids[d.boundary.solid[part]].material);
+      points.material.push_back(material_of(part));
+      points.pin_column.push_back(first_pin_column_ + held[k].pin);
     }
     points.map = map_at(d, points.position, true);
-    return Clamps<Dim>(std::move(points), std::move(controls));
+    return points;
+  }
+
+  HeldControl<Dim> spring(int control, int pin) const {
+    const auto& d = model_->discretization;
+    const double size = std::pow(d.boundary.box.diagonal(), Dim - 2);
+    return {d.unknowns.S.row(control), rest_controls(d.boundary).col(control), held_axes(pin),
+            first_pin_column_ + pin, 100 * size * material_of(part_of_control(control)).youngs_modulus};
+  }
+
+  Vec<Dim> held_axes(int pin) const {
+    Vec<Dim> axes;
+    for (int a = 0; a < Dim; ++a) axes[a] = scene_.pins[pin].axes[a];
+    return axes;
+  }
+
+  const Material& material_of(int part) const {
+    return part_materials_[part] ? *part_materials_[part]
+                                 : scene_.solids[model_->discretization.boundary.solid[part]].material;
   }
 
   int part_of_control(int control) const {
@@ -227,10 +253,10 @@ class Builder {
     std::vector<bool> held(system.size(), false);
     for (size_t i = 0; i < scene_.pins.size(); ++i) {
       const auto& pin = scene_.pins[i];
-      const auto hold = [&](int column, bool report) {
+      const auto hold = [&](int column, bool all_axes) {
         for (int a = 0; a < Dim; ++a) {
           const int entry = Dim * column + a;
-          if (report || pin.axes[a]) held[entry] = true;
+          if (all_axes || pin.axes[a]) held[entry] = true;
           if (!pin.axes[a]) continue;
           model_->held[i].entries.push_back(entry);
           model_->target[entry] = system.rest[entry] + pin.displacement[a];
