@@ -75,10 +75,14 @@ std::vector<double> probes_at_rest(const Scene<Dim>& scene) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("patch test: uniaxial tension and a moved clamp are exact", T, D2, D3) {
-  constexpr int Dim = T::value;
+namespace {
+
+// Uniaxial tension and a moved clamp: (0.024, 0.02), 100 Pa, -100 N.
+template <int Dim>
+void check_uniform_tension(double poisson_ratio, OwnPressure own_pressure) {
   Scene<Dim> scene = condensed_box<Dim>(MaterialModel::linear);
-  scene.solids[0].material.poisson_ratio = 0;  // so that the clamp does not disturb the state of uniform stress
+  scene.method.own_pressure = own_pressure;
+  scene.solids[0].material.poisson_ratio = poisson_ratio;
   scene.pins.push_back(part_pin<Dim>(face<Dim>(0)));
   scene.pins[0].displacement = Vec<Dim>::Constant(0.02);
   BoundaryLoad<Dim> pull;
@@ -97,10 +101,88 @@ TEST_CASE_TEMPLATE("patch test: uniaxial tension and a moved clamp are exact", T
   CHECK(values[reaction] == doctest::Approx(-100).epsilon(1e-8));  // the clamp holds against the pull
 }
 
+}  // namespace
+
+// Poisson's ratio 0, so that the clamp does not disturb the state of uniform stress.
+TEST_CASE_TEMPLATE("patch test: uniaxial tension and a moved clamp are exact", T, D2, D3) {
+  check_uniform_tension<T::value>(0, OwnPressure::automatic);
+}
+
+TEST_CASE_TEMPLATE("patch test: a confined, nearly incompressible body has the exact uniform pressure", T, D2, D3) {
+  constexpr int Dim = T::value;
+  for (const double nu : {0.3, 0.4999}) {
+    Scene<Dim> scene = condensed_box<Dim>(MaterialModel::linear);
+    scene.method.own_pressure = OwnPressure::always;
+    auto& material = scene.solids[0].material;
+    material.poisson_ratio = nu;
+    scene.pins.push_back(part_pin<Dim>(face<Dim>(0)));
+    for (int axis = 1; axis < Dim; ++axis)  // rollers on all sides
+      for (const int side : {0, 1}) {
+        Pin<Dim> roller = part_pin<Dim>("part." + std::to_string(Dim == 2 ? (side == 0 ? 1 : 3) : 2 * axis + side + 1));
+        roller.axes.fill(false);
+        roller.axes[axis] = true;
+        scene.pins.push_back(roller);
+      }
+    BoundaryLoad<Dim> push;
+    push.where.part = face<Dim>(1);
+    push.traction[0] = -50;
+    scene.boundary_loads.push_back(push);
+    scene.probes.push_back({"middle", ProbeKind::displacement, Vec<Dim>::Constant(0.5)});
+    scene.probes.push_back({"stress", ProbeKind::stress, Vec<Dim>::Constant(0.3)});
+    const auto values = probes_at_rest(scene);
+    const double strain = -50 / (material.lame_lambda() + 2 * material.lame_mu());
+    CHECK(values[0] == doctest::Approx(strain / 2).epsilon(1e-7));
+    CHECK(values[Dim] == doctest::Approx(-50).epsilon(1e-6));
+    // sigma_yy follows sigma_xx (2D: xx, xy, yy; 3D: xx, xy, xz, yy).
+    CHECK(values[2 * Dim] == doctest::Approx(material.lame_lambda() * strain).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("own pressure: Cook's membrane within 1.5 % at nu = 0.3, 2.5 % at nu = 0.4999") {
+  const auto error = [](double nu, OwnPressure own_pressure) {
+    Scene<2> scene;
+    SceneSolid<2> solid{"membrane", {MaterialModel::neo_log, 240.565, nu, 0}, {}};
+    const std::vector<Vec<2>> corners = {{0, 0}, {48, 44}, {48, 60}, {0, 44}};
+    std::vector<Vec<2>> points;
+    for (int side = 0; side < 4; ++side)
+      for (int k = 0; k < 4; ++k) points.push_back(corners[side] + k / 4. * (corners[(side + 1) % 4] - corners[side]));
+    for (auto shape : test::polygon(points))
+      solid.parts.push_back({"side" + std::to_string(solid.parts.size() / 4) + "." + std::to_string(solid.parts.size() % 4),
+                             elevate_degree(shape, 0, 2), {}});
+    scene.solids.push_back(solid);
+    scene.method = condensed_box<2>(MaterialModel::linear, 3).method;
+    scene.method.interior_rule.weight_tolerance = 3e-4;
+    scene.method.weights.cutoff = 30;
+    scene.method.own_pressure = own_pressure;
+    scene.pins.push_back(part_pin<2>("side3"));
+    BoundaryLoad<2> shear;
+    shear.where.part = "side1";
+    shear.traction = {0, 20. / 16};
+    scene.boundary_loads.push_back(shear);
+    scene.probes.push_back({"tip", ProbeKind::displacement, {48, 60}});
+    scene.analysis.kind = AnalysisKind::statics;
+    const auto u = probes_at_rest(scene);
+    const Vec<2> truth = nu > 0.4 ? Vec<2>(-1.17473, 1.56823) : Vec<2>(-1.438027, 1.840498);
+    return (Vec<2>(u[0], u[1]) - truth).cwiseQuotient(truth).cwiseAbs().maxCoeff();
+  };
+  CHECK(error(0.3, OwnPressure::automatic) < 0.015);
+  CHECK(error(0.3, OwnPressure::always) < 0.015);
+  CHECK(error(0.4999, OwnPressure::automatic) < 0.025);
+}
+
 TEST_CASE_TEMPLATE("energy with clamps: gradient and Hessian are finite differences", T, D2, D3) {
   constexpr int Dim = T::value;
-  for (const auto material : {MaterialModel::linear, MaterialModel::neo_log, MaterialModel::corotated}) {
+  using enum MaterialModel;
+  for (const auto& [material, own_pressure] :
+       {std::pair(linear, OwnPressure::never), std::pair(neo_log, OwnPressure::never),
+        std::pair(corotated, OwnPressure::never), std::pair(linear, OwnPressure::always),
+        std::pair(stvk, OwnPressure::always), std::pair(corotated, OwnPressure::always),
+        std::pair(neo_log, OwnPressure::always), std::pair(neo_ref, OwnPressure::always),
+        std::pair(neo_iso, OwnPressure::always)}) {
+    CAPTURE(name(material));
+    CAPTURE(int(own_pressure));
     Scene<Dim> scene = condensed_box<Dim>(material, 1);
+    scene.method.own_pressure = own_pressure;
     scene.pins.push_back(part_pin<Dim>(face<Dim>(0)));
     scene.pins[0].axes[1] = false;
     Pin<Dim> corner = part_pin<Dim>(face<Dim>(1));  // a single control point: a spring

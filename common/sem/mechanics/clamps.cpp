@@ -1,5 +1,6 @@
 #include "sem/mechanics/clamps.h"
 
+#include <cmath>
 #include <limits>
 
 namespace sem {
@@ -19,10 +20,13 @@ struct HeldPoint {
   double weight, penalty;
   const Material& material;
   int pin_column;
+  const double* pressure;  // null: none of its own
+  int index;               // among the held points
 };
 
 template <int Dim, class Visit>
-void visit_points(const ClampedPoints<Dim>& points, const VectorXd& z, const Visit& visit) {
+void visit_points(const ClampedPoints<Dim>& points, const VectorXd& z, const double* pressure,
+                  const Visit& visit) {
   const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, points.map.n_columns);
   for (const auto& block : points.map.blocks) {
     const Points<Dim> local = nodes(Eigen::all, block.columns);
@@ -39,7 +43,9 @@ void visit_points(const ClampedPoints<Dim>& points, const VectorXd& z, const Vis
                            points.weight[s],
                            points.penalty[s],
                            points.material[s],
-                           points.pin_column[s]};
+                           points.pin_column[s],
+                           pressure && !std::isnan(pressure[s]) ? pressure + s : nullptr,
+                           s};
       for (int b = 0; b < Dim; ++b) point.F.col(b) = local * block.gradient[b].row(row).transpose();
       visit(point);
     }
@@ -68,8 +74,8 @@ StressDerivative<Dim> third_derivative(const HeldPoint<Dim>& p) {
   if (is_quadratic(p.material.model) || size == 0) return StressDerivative<Dim>::Zero();
   const Mat<Dim> D = step * (p.residual / size) * p.normal.transpose();
   return size / (2 * step) *
-         (stress_derivative<Dim>(p.material, p.F + D) -
-          stress_derivative<Dim>(p.material, p.F - D));
+         (stress_derivative<Dim>(p.material, p.F + D, p.pressure) -
+          stress_derivative<Dim>(p.material, p.F - D, p.pressure));
 }
 
 }  // namespace
@@ -79,15 +85,15 @@ Clamps<Dim>::Clamps(ClampedPoints<Dim> points, std::vector<HeldControl<Dim>> con
     : points_(std::move(points)), controls_(std::move(controls)) {}
 
 template <int Dim>
-double Clamps<Dim>::energy(const VectorXd& z) const {
+double Clamps<Dim>::energy(const VectorXd& z, const double* pressure) const {
   double sum = 0;
-  visit_points<Dim>(points_, z, [&](const HeldPoint<Dim>& p) {
+  visit_points<Dim>(points_, z, pressure, [&](const HeldPoint<Dim>& p) {
     if (!std::isfinite(energy_density<Dim>(p.material, p.F))) {
       sum = std::numeric_limits<double>::infinity();
       return;
     }
     sum += p.weight * (p.residual.dot(penalty_matrix(p) * p.residual) / 2 -
-                       (first_piola<Dim>(p.material, p.F) * p.normal).dot(p.residual));
+                       (first_piola<Dim>(p.material, p.F, p.pressure) * p.normal).dot(p.residual));
   });
   for (const auto& spring : controls_) {
     const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, spring.output.size());
@@ -99,13 +105,13 @@ double Clamps<Dim>::energy(const VectorXd& z) const {
 }
 
 template <int Dim>
-void Clamps<Dim>::add_gradient(const VectorXd& z, VectorXd& g) const {
-  visit_points<Dim>(points_, z, [&](const HeldPoint<Dim>& p) {
+void Clamps<Dim>::add_gradient(const VectorXd& z, VectorXd& g, const double* pressure) const {
+  visit_points<Dim>(points_, z, pressure, [&](const HeldPoint<Dim>& p) {
     // dV = force . (dx - dd) - Q : dF with Q = C : (r (x) N).
-    const Vec<Dim> traction = p.held.cwiseProduct(first_piola<Dim>(p.material, p.F) * p.normal);
+    const Vec<Dim> traction = p.held.cwiseProduct(first_piola<Dim>(p.material, p.F, p.pressure) * p.normal);
     const Vec<Dim> force = p.weight * (penalty_matrix(p) * p.residual - traction);
     const Eigen::Matrix<double, Dim * Dim, 1> q =
-        stress_derivative<Dim>(p.material, p.F) * work_direction(p);
+        stress_derivative<Dim>(p.material, p.F, p.pressure) * work_direction(p);
     const Mat<Dim> Q = p.weight * Eigen::Map<const Mat<Dim>>(q.data());
     for (size_t j = 0; j < p.block.columns.size(); ++j) {
       Vec<Dim> f = p.block.value(p.row, j) * force;
@@ -126,12 +132,12 @@ void Clamps<Dim>::add_gradient(const VectorXd& z, VectorXd& g) const {
 }
 
 template <int Dim>
-void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, MatrixXd& H) const {
-  visit_points<Dim>(points_, z, [&](const HeldPoint<Dim>& p) {
+void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, MatrixXd& H, const double* pressure) const {
+  visit_points<Dim>(points_, z, pressure, [&](const HeldPoint<Dim>& p) {
     const auto& block = p.block;
     const int n = int(block.columns.size());
     const Mat<Dim> K = penalty_matrix(p);
-    const StressDerivative<Dim> C = stress_derivative<Dim>(p.material, p.F);
+    const StressDerivative<Dim> C = stress_derivative<Dim>(p.material, p.F, p.pressure);
     const StressDerivative<Dim> D =
         approximate ? StressDerivative<Dim>::Zero().eval() : third_derivative(p);
     // Traction on held components by the column j: held dP N = T_j dz_j. The last one is the pin's
@@ -168,6 +174,35 @@ void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, MatrixXd& H) 
         for (int i = 0; i < row.size(); ++i)
           H(Dim * i + a, Dim * j + a) += spring.held[a] * spring.stiffness * row[i] * row[j];
   }
+}
+
+template <int Dim>
+VectorXd Clamps<Dim>::volume_work(const VectorXd& z) const {
+  VectorXd work = VectorXd::Zero(points_.size());
+  visit_points<Dim>(points_, z, nullptr, [&](const HeldPoint<Dim>& p) {
+    const auto g = volume_measure<Dim>(p.material.model, p.F);
+    work[p.index] = -p.weight * (g.first * p.normal).dot(p.residual);
+  });
+  return work;
+}
+
+template <int Dim>
+void Clamps<Dim>::add_volume_work_derivative(const VectorXd& z, const MatrixXd& Q, MatrixXd& G) const {
+  visit_points<Dim>(points_, z, nullptr, [&](const HeldPoint<Dim>& p) {
+    const auto g = volume_measure<Dim>(p.material.model, p.F);
+    const Vec<Dim> by_residual = -p.weight * p.held.cwiseProduct(g.first * p.normal);
+    const Eigen::Matrix<double, Dim * Dim, 1> q = -p.weight * (g.second * work_direction(p));
+    const Eigen::Map<const Mat<Dim>> by_F(q.data());
+    const auto add = [&](int column, const Vec<Dim>& derivative) {
+      for (int a = 0; a < Dim; ++a) G.col(Dim * column + a) += derivative[a] * Q.row(p.index).transpose();
+    };
+    for (size_t j = 0; j < p.block.columns.size(); ++j) {
+      Vec<Dim> derivative = p.block.value(p.row, j) * by_residual;
+      for (int b = 0; b < Dim; ++b) derivative += p.block.gradient[b](p.row, j) * by_F.col(b);
+      add(p.block.columns[j], derivative);
+    }
+    add(p.pin_column, -by_residual);
+  });
 }
 
 template class Clamps<2>;

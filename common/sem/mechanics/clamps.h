@@ -47,12 +47,23 @@ class Clamps {
   Clamps(ClampedPoints<Dim> points, std::vector<HeldControl<Dim>> controls);
 
   bool empty() const { return points_.size() == 0 && controls_.empty(); }
-  /// +infinity where a held point is outside of its material's domain.
-  double energy(const Eigen::VectorXd& z) const;
-  void add_gradient(const Eigen::VectorXd& z, Eigen::VectorXd& g) const;
+  /// Points at which the boundary is held.
+  const ClampedPoints<Dim>& points() const { return points_; }
+
+  /// +infinity where a held point is outside of its material's domain. `pressure`, here and below: Pa at
+  /// the held points, in place of lambda g (material.h), NaN where it is not; null: nowhere.
+  double energy(const Eigen::VectorXd& z, const double* pressure = nullptr) const;
+  void add_gradient(const Eigen::VectorXd& z, Eigen::VectorXd& g, const double* pressure = nullptr) const;
   /// The third derivative of Psi, which -P(F) N . r brings, by central differences of its second
   /// along r (x) N: exact to 1e-8 of a term that vanishes with r. `approximate`: without it.
-  void add_hessian(const Eigen::VectorXd& z, bool approximate, Eigen::MatrixXd& H) const;
+  void add_hessian(const Eigen::VectorXd& z, bool approximate, Eigen::MatrixXd& H,
+                   const double* pressure = nullptr) const;
+
+  /// d V_D / d p at the held points, -da (dg/dF N) . r: what the clamps add to the volume's change that a
+  /// pressure works on.
+  Eigen::VectorXd volume_work(const Eigen::VectorXd& z) const;
+  /// G += Q^T d(volume_work)/dz, Q the values of functions at the held points, #points by #functions.
+  void add_volume_work_derivative(const Eigen::VectorXd& z, const Eigen::MatrixXd& Q, Eigen::MatrixXd& G) const;
 
  private:
   ClampedPoints<Dim> points_;

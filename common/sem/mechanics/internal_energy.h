@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "sem/mechanics/clamps.h"
+#include "sem/mechanics/pressure.h"
 #include "sem/method/map.h"
 #include "sem/solve/system.h"
 
@@ -28,8 +28,9 @@ class InternalEnergy : public Potential {
  public:
   /// map: B at the quadrature points (kept by reference); weight: v_k;
   /// stability: gamma S, scalar, n_columns by n_columns, Pa (2D) or Pa m; empty: none. clamps: V_D, added to V.
+  /// pressure: of the materials that have one of their own (pressure.h); empty: none.
   InternalEnergy(const Map<Dim>& map, const Eigen::VectorXd& weight, const MaterialField& materials,
-                 const Eigen::MatrixXd& stability, Clamps<Dim> clamps = {});
+                 const Eigen::MatrixXd& stability, Clamps<Dim> clamps = {}, Pressure<Dim> pressure = {});
 
   int size() const override { return Dim * map_.n_columns; }
   double energy(const Eigen::VectorXd& z) override;
@@ -42,6 +43,9 @@ class InternalEnergy : public Potential {
   double elastic_energy(const Eigen::VectorXd& z);
   double stability_energy(const Eigen::VectorXd& z);
 
+  /// Coefficients y of the materials' own pressure at z (pressure.h); empty if none has one.
+  Eigen::VectorXd pressure_coefficients(const Eigen::VectorXd& z);
+
  private:
   // Work space of one map block, sized once.
   struct Workspace {
@@ -52,6 +56,12 @@ class InternalEnergy : public Potential {
   };
 
   void deformation_gradients(const Eigen::VectorXd& z, const MapBlock<Dim>& block, Workspace& work);
+  // Solves for the pressure at z; false where g is not defined (J <= 0).
+  bool update_pressure(const Eigen::VectorXd& z);
+  double mixed_energy(const Eigen::VectorXd& z);  // at that pressure
+  void add_pressure_hessian(const Eigen::VectorXd& z, Eigen::MatrixXd& H);
+  const double* pressure(int point) const { return pressure_.empty() ? nullptr : pressure_.at(point); }
+  const double* clamp_pressure() const { return pressure_.empty() ? nullptr : pressure_.on_clamps(); }
   const Material& material(int point) const { return materials_.materials[materials_.of_point[point]]; }
 
   const Map<Dim>& map_;
@@ -59,6 +69,7 @@ class InternalEnergy : public Potential {
   MaterialField materials_;
   Eigen::MatrixXd stability_;
   Clamps<Dim> clamps_;
+  Pressure<Dim> pressure_;
   bool quadratic_;
   std::vector<Workspace> work_;
   Points<Dim> stability_force_;  // Dim by n_columns

@@ -303,7 +303,28 @@ void check(const Material& material, const std::string& file, const std::string&
 bool is_quadratic(MaterialModel model) { return model == MaterialModel::linear; }
 
 template <int Dim>
-double energy_density(const Material& material, const Mat<Dim>& F) {
+VolumeMeasure<Dim> volume_measure(MaterialModel model, const Mat<Dim>& F) {
+  using Second = StressDerivative<Dim>;
+  switch (model) {
+    case MaterialModel::linear:
+      return {small_strain(F).trace(), Mat<Dim>::Identity(), Second::Zero()};
+    case MaterialModel::stvk:
+      return {green_strain(F).trace(), F, Second::Identity()};
+    case MaterialModel::neo_log: {
+      const double j = Strain<Dim>(F).j, J = 1 + j;
+      const Mat<Dim> first = cofactor(F) / J;
+      const auto f = first.reshaped();
+      return {std::log1p(j), first, cofactor_derivative(F) / J - f * f.transpose()};
+    }
+    default:
+      return {Strain<Dim>(F).j, cofactor(F), cofactor_derivative(F)};
+  }
+}
+
+namespace {
+
+template <int Dim>
+double whole_energy(const Material& material, const Mat<Dim>& F) {
   switch (material.model) {
     case MaterialModel::linear:
       return quadratic_energy<Dim>(material, small_strain(F));
@@ -320,7 +341,7 @@ double energy_density(const Material& material, const Mat<Dim>& F) {
 }
 
 template <int Dim>
-Mat<Dim> first_piola(const Material& material, const Mat<Dim>& F) {
+Mat<Dim> whole_stress(const Material& material, const Mat<Dim>& F) {
   switch (material.model) {
     case MaterialModel::linear:
       return quadratic_stress<Dim>(material, small_strain(F));
@@ -335,7 +356,7 @@ Mat<Dim> first_piola(const Material& material, const Mat<Dim>& F) {
 }
 
 template <int Dim>
-StressDerivative<Dim> stress_derivative(const Material& material, const Mat<Dim>& F) {
+StressDerivative<Dim> whole_derivative(const Material& material, const Mat<Dim>& F) {
   switch (material.model) {
     case MaterialModel::linear:
       return quadratic_derivative<Dim>(material, Mat<Dim>::Identity(), Mat<Dim>::Zero());
@@ -349,24 +370,53 @@ StressDerivative<Dim> stress_derivative(const Material& material, const Mat<Dim>
   }
 }
 
+}  // namespace
+
+template <int Dim>
+double energy_density(const Material& material, const Mat<Dim>& F, const double* pressure) {
+  const double whole = whole_energy<Dim>(material, F);
+  if (!pressure || !std::isfinite(whole)) return whole;
+  const double g = volume_measure<Dim>(material.model, F).value;
+  return whole + (*pressure - material.lame_lambda() / 2 * g) * g;
+}
+
+template <int Dim>
+Mat<Dim> first_piola(const Material& material, const Mat<Dim>& F, const double* pressure) {
+  Mat<Dim> P = whole_stress<Dim>(material, F);
+  if (!pressure) return P;
+  const auto g = volume_measure<Dim>(material.model, F);
+  return P + (*pressure - material.lame_lambda() * g.value) * g.first;
+}
+
+template <int Dim>
+StressDerivative<Dim> stress_derivative(const Material& material, const Mat<Dim>& F, const double* pressure) {
+  StressDerivative<Dim> C = whole_derivative<Dim>(material, F);
+  if (!pressure) return C;
+  const auto g = volume_measure<Dim>(material.model, F);
+  const double lambda = material.lame_lambda();
+  const auto first = g.first.reshaped();
+  return C + (*pressure - lambda * g.value) * g.second - lambda * first * first.transpose();
+}
+
 template <int Dim>
 StressDerivative<Dim> project_to_psd(const StressDerivative<Dim>& H) {
   return without_negative_eigenvalues(H);
 }
 
 template <int Dim>
-Mat<Dim> cauchy_stress(const Material& material, const Mat<Dim>& F) {
-  const Mat<Dim> P = first_piola<Dim>(material, F);
+Mat<Dim> cauchy_stress(const Material& material, const Mat<Dim>& F, const double* pressure) {
+  const Mat<Dim> P = first_piola<Dim>(material, F, pressure);
   if (material.model == MaterialModel::linear) return P;
   return P * F.transpose() / F.determinant();
 }
 
 #define SEM_INSTANTIATE(Dim)                                                               \
-  template double energy_density<Dim>(const Material&, const Mat<Dim>&);                   \
-  template Mat<Dim> first_piola<Dim>(const Material&, const Mat<Dim>&);                    \
-  template StressDerivative<Dim> stress_derivative<Dim>(const Material&, const Mat<Dim>&); \
+  template double energy_density<Dim>(const Material&, const Mat<Dim>&, const double*);     \
+  template Mat<Dim> first_piola<Dim>(const Material&, const Mat<Dim>&, const double*);      \
+  template StressDerivative<Dim> stress_derivative<Dim>(const Material&, const Mat<Dim>&, const double*); \
+  template VolumeMeasure<Dim> volume_measure<Dim>(MaterialModel, const Mat<Dim>&);          \
   template StressDerivative<Dim> project_to_psd<Dim>(const StressDerivative<Dim>&);        \
-  template Mat<Dim> cauchy_stress<Dim>(const Material&, const Mat<Dim>&);
+  template Mat<Dim> cauchy_stress<Dim>(const Material&, const Mat<Dim>&, const double*);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
 #undef SEM_INSTANTIATE

@@ -61,17 +61,33 @@ using StressDerivative = Eigen::Matrix<double, Dim * Dim, Dim * Dim>;
 
 /// Psi(F), J/m^3; accurate relative to its own size for F near I. +infinity
 /// outside the model's domain.
+///
+/// Here and below, `pressure` p (Pa, positive in tension) that is given takes the place of lambda g
+/// (volume_measure): Psi - lambda/2 g^2 + p g and its derivatives at fixed p, what a mixed energy is made of.
 template <int Dim>
-double energy_density(const Material& material, const Mat<Dim>& F);
+double energy_density(const Material& material, const Mat<Dim>& F, const double* pressure = nullptr);
 
 /// P = dPsi/dF, Pa.
 template <int Dim>
-Mat<Dim> first_piola(const Material& material, const Mat<Dim>& F);
+Mat<Dim> first_piola(const Material& material, const Mat<Dim>& F, const double* pressure = nullptr);
 
 /// dP/dF, Pa. Corotated: at the F where the nearest rotation is not unique the
 /// derivative is unbounded; it is limited (finite, not exact) there.
 template <int Dim>
-StressDerivative<Dim> stress_derivative(const Material& material, const Mat<Dim>& F);
+StressDerivative<Dim> stress_derivative(const Material& material, const Mat<Dim>& F,
+                                        const double* pressure = nullptr);
+
+/// Every model's energy contains lambda/2 g(F)^2 with a measure g of the volume's change, 0 at rest:
+/// tr e (linear), tr E (stvk), ln J (neo_log), J - 1 (the others). g with its derivatives by vec(F).
+template <int Dim>
+struct VolumeMeasure {
+  double value;
+  Mat<Dim> first;
+  StressDerivative<Dim> second;
+};
+/// Needs J > 0 for neo_log.
+template <int Dim>
+VolumeMeasure<Dim> volume_measure(MaterialModel model, const Mat<Dim>& F);
 
 /// The nearest positive semi-definite matrix in the Frobenius norm: negative
 /// eigenvalues of the symmetric H are set to zero. Call as project_to_psd<Dim>(H).
@@ -81,6 +97,6 @@ StressDerivative<Dim> project_to_psd(const StressDerivative<Dim>& H);
 /// Cauchy stress P F^T / J, Pa (in-plane part in 2D); linear: the stress of the
 /// small strain, which is P. Needs J != 0 unless linear.
 template <int Dim>
-Mat<Dim> cauchy_stress(const Material& material, const Mat<Dim>& F);
+Mat<Dim> cauchy_stress(const Material& material, const Mat<Dim>& F, const double* pressure = nullptr);
 
 }  // namespace sem

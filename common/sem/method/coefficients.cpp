@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "sem/base/error.h"
 #include "sem/method/least_squares.h"
@@ -43,30 +44,48 @@ Frames<Dim> weight_frames(const Points<Dim>& position, const VectorXd& volume,
   return frames;
 }
 
+// Appends the kept ones among a part's own functions 1, m_1, m_2, ... as columns of their own;
+// `column_of[f]` is the column of its f-th function, -1: left out.
+void add_own_functions(PartFit& fit, int n_monomials, const std::vector<int>& column_of) {
+  int c = int(fit.columns.size());
+  for (const int column : column_of)
+    if (column >= 0) fit.columns.push_back(column);
+  fit.coefficients = MatrixXd::Zero(n_monomials, fit.columns.size());
+  fit.translation = Eigen::RowVectorXd::Zero(fit.columns.size());
+  for (int f = 0; f < int(column_of.size()); ++f) {
+    if (column_of[f] < 0) continue;
+    (f == 0 ? fit.translation[c] : fit.coefficients(f - 1, c)) = 1;
+    ++c;
+  }
+}
+
+// Every part has its own origin: the centre of its weight.
+template <int Dim>
+Origins<Dim> own_origins(const Frames<Dim>& frames) {
+  Origins<Dim> origins;
+  origins.position = frames.center;
+  for (int i = 0; i < frames.length.size(); ++i) {
+    origins.members.push_back({i});
+    origins.of_part.push_back(i);
+  }
+  return origins;
+}
+
 // The columns of part i: the affine field (Dim + 1 of them), then the kept ones among its own
-// functions 1, m_1, m_2, ...; `column_of[f]` is the column of its f-th function, -1: left out.
+// functions.
 template <int Dim>
 PartFit fit_of_columns(const Monomials<Dim>& monomials, const Vec<Dim>& center, double length,
                        const Vec<Dim>& middle, double size, const std::vector<int>& column_of) {
   PartFit fit;
   fit.scale = length;
   for (int a = 0; a <= Dim; ++a) fit.columns.push_back(a);
-  for (const int column : column_of)
-    if (column >= 0) fit.columns.push_back(column);
-  fit.coefficients = MatrixXd::Zero(monomials.size(), fit.columns.size());
-  fit.translation = Eigen::RowVectorXd::Zero(fit.columns.size());
+  add_own_functions(fit, monomials.size(), column_of);
   // Column 0: the field 1. Column 1 + a: (X_a - middle_a) / size in the part's own monomials.
   fit.translation[0] = 1;
   for (int m = monomials.first(1); m < monomials.first(2); ++m)
     for (int a = 0; a < Dim; ++a)
       if (monomials.exponent(m)[a] == 1) fit.coefficients(m, 1 + a) = length / size;
   for (int a = 0; a < Dim; ++a) fit.translation[1 + a] = (center[a] - middle[a]) / size;
-  int c = Dim + 1;
-  for (size_t f = 0; f < column_of.size(); ++f) {
-    if (column_of[f] < 0) continue;
-    (f == 0 ? fit.translation[c] : fit.coefficients(int(f) - 1, c)) = 1;
-    ++c;
-  }
   return fit;
 }
 
@@ -77,7 +96,7 @@ MatrixXd gram_matrix(const Map<Dim>& map, const VectorXd& volume, double size) {
   for (const auto& block : map.blocks) {
     const VectorXd v = volume(block.points);
     MatrixXd sum = block.value.transpose() * (v / (size * size)).asDiagonal() * block.value;
-    for (int axis = 0; axis < Dim; ++axis)
+    for (int axis = 0; axis < Dim && block.gradient[axis].size() > 0; ++axis)
       sum += block.gradient[axis].transpose() * v.asDiagonal() * block.gradient[axis];
     G(block.columns, block.columns) += sum;
   }
@@ -120,11 +139,7 @@ FreeCoefficients<Dim> free_coefficients(const Points<Dim>& position, const Vecto
   free.projection.monomials = Monomials<Dim>(degree);
   const int n_parts = weights.n_parts, n_functions = free.projection.monomials.size() + 1;
   const Frames<Dim> frames = weight_frames(position, volume, weights);
-  free.origins.position = frames.center;
-  for (int i = 0; i < n_parts; ++i) {
-    free.origins.members.push_back({i});
-    free.origins.of_part.push_back(i);
-  }
+  free.origins = own_origins(frames);
   const Vec<Dim> lower = position.rowwise().minCoeff(), upper = position.rowwise().maxCoeff();
   const Vec<Dim> middle = (lower + upper) / 2;
   const double size = (upper - lower).norm();
@@ -154,6 +169,39 @@ FreeCoefficients<Dim> free_coefficients(const Points<Dim>& position, const Vecto
   free.unknowns.rest.col(0) = middle;
   for (int a = 0; a < Dim; ++a) free.unknowns.rest(a, 1 + a) = size;
   return free;
+}
+
+template <int Dim>
+BlendedField<Dim> blended_field(const Points<Dim>& position, const VectorXd& volume,
+                                const BlendingWeights<Dim>& weights, int degree, double tolerance) {
+  BlendedField<Dim> field;
+  // Monomials begin at degree 1; of degree 0 only the constants are kept.
+  field.projection.monomials = Monomials<Dim>(std::max(degree, 1));
+  const int n_own = degree == 0 ? 1 : field.projection.monomials.size() + 1;
+  const Frames<Dim> frames = weight_frames(position, volume, weights);
+  field.origins = own_origins(frames);
+  std::vector<int> column_of(weights.n_parts * n_own);
+  std::iota(column_of.begin(), column_of.end(), 0);
+  const auto set_columns = [&] {
+    field.projection.parts.clear();
+    for (int i = 0; i < weights.n_parts; ++i) {
+      PartFit fit;
+      fit.scale = frames.length[i];
+      add_own_functions(fit, field.projection.monomials.size(),
+                        {column_of.begin() + i * n_own, column_of.begin() + (i + 1) * n_own});
+      field.projection.parts.push_back(std::move(fit));
+    }
+  };
+  set_columns();
+  MatrixXd G = gram_matrix(blended_map(position, weights, field.origins, field.projection, int(column_of.size()), false),
+                           volume, 1);
+  std::vector<int> chosen = independent_rows(G, 0, tolerance);
+  std::sort(chosen.begin(), chosen.end());
+  std::fill(column_of.begin(), column_of.end(), -1);
+  for (int c = 0; c < int(chosen.size()); ++c) column_of[chosen[c]] = c;
+  set_columns();
+  field.n_functions = int(chosen.size());
+  return field;
 }
 
 template <int Dim>
@@ -208,6 +256,8 @@ double satisfy_divergence_theorem(Map<Dim>& interior, const VectorXd& volume, co
   template FreeCoefficients<Dim> free_coefficients<Dim>(const Points<Dim>&, const VectorXd&,       \
                                                         const BlendingWeights<Dim>&, int, double); \
   template double satisfy_divergence_theorem<Dim>(Map<Dim>&, const VectorXd&, const Points<Dim>&);    \
+  template BlendedField<Dim> blended_field<Dim>(const Points<Dim>&, const VectorXd&,               \
+                                                const BlendingWeights<Dim>&, int, double);         \
   template MatrixXd boundary_output<Dim>(const Samples<Dim>&, const Map<Dim>&, int);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)

@@ -33,6 +33,19 @@ FreeCoefficients<Dim> free_coefficients(const Points<Dim>& position, const Eigen
                                         const BlendingWeights<Dim>& weights, int degree,
                                         double tolerance = 1e-10);
 
+/// Blended polynomials w_i q of a degree from 0 to `degree` of the map's, as a basis of a scalar field on the
+/// same points (values only, dependent ones left out as above, by their values alone).
+/// For the pressure of a mixed energy (mechanics/pressure.h).
+template <int Dim>
+struct BlendedField {
+  Origins<Dim> origins;
+  Projection<Dim> projection;
+  int n_functions = 0;
+};
+template <int Dim>
+BlendedField<Dim> blended_field(const Points<Dim>& position, const Eigen::VectorXd& volume,
+                                const BlendingWeights<Dim>& weights, int degree, double tolerance = 1e-10);
+
 /// S of p = S z: the control points follow the map, each part by least squares on its samples.
 /// #control points by n. A control point that no sample determines stays in the least-norm
 /// position.

@@ -1,6 +1,7 @@
 #include "sem/method/discretization.h"
 
 #include <chrono>
+#include <utility>
 
 #include "sem/base/error.h"
 #include "sem/method/resolved_rule.h"
@@ -54,9 +55,12 @@ void project_controls(Discretization<Dim>& d) {
 // The condensed one: the coefficients are the unknowns.
 template <int Dim>
 void choose_coefficients(Discretization<Dim>& d) {
+  // A function whose energy is below the rule's error is one that the rule cannot tell from none.
+  const bool resolved = d.options.interior_rule.rule == InteriorRule::resolved;
+  const double tolerance = resolved ? std::max(1e-10, 0.1 * d.options.interior_rule.weight_tolerance) : 1e-10;
   auto free = timed(d.cost, "coefficients", [&] {
     return free_coefficients(d.quadrature.position, d.quadrature.weight, d.weights,
-                             d.options.projection.degree);
+                             d.options.projection.degree, tolerance);
   });
   d.origins = std::move(free.origins);
   d.projection = std::move(free.projection);
@@ -85,6 +89,38 @@ void drop_unresolved_corners(Discretization<Dim>& d) {
   });
 }
 
+// 1 + the squares of the Legendre polynomials P_n of each coordinate on the box, of mean 1: what products of
+// the polynomials of degree n vary like there.
+template <int Dim>
+double polynomial_variation(const Box<Dim>& box, int n, const Vec<Dim>& X) {
+  double sum = 1;
+  for (int a = 0; a < Dim; ++a) {
+    const double t = (2 * X[a] - box.lower[a] - box.upper[a]) / (box.upper[a] - box.lower[a]);
+    double before = 1, P = t;
+    for (int k = 2; k <= n; ++k) before = std::exchange(P, ((2 * k - 1) * t * P - (k - 1) * before) / k);
+    sum += (2 * n + 1) * P * P;
+  }
+  return sum;
+}
+
+// Where a part's weight can act: its box, larger by the cutoff on all sides, cut by that of all parts.
+template <int Dim>
+std::vector<Box<Dim>> support_boxes(const Discretization<Dim>& d) {
+  std::vector<Box<Dim>> boxes;
+  const double reach = d.options.weights.cutoff;
+  const auto add = [&](const Vec<Dim>& lower, const Vec<Dim>& upper) {
+    Box<Dim> box;
+    box.lower = lower.cwiseMax(d.boundary.box.lower);
+    box.upper = upper.cwiseMin(d.boundary.box.upper);
+    boxes.push_back(box);
+  };
+  for (const auto& part : d.boundary.parts)
+    add(part.box.lower.array() - reach, part.box.upper.array() + reach);
+  for (const auto& corner : d.corners)
+    add(corner.center.array() - corner.radius, corner.center.array() + corner.radius);
+  return boxes;
+}
+
 // What the interior rule has to resolve of every weight: w^2 and rho^2 |grad w|^2, rho the distance
 // to the part, at most a quarter of the cutoff: at the joint of two parts grad w grows like 1 /
 // distance, where their polynomials agree.
@@ -93,6 +129,7 @@ Indicators weight_indicators(const Discretization<Dim>& d, const Points<Dim>& po
   const auto [distances, theta] =
       measure_theta(d.boundary, d.loops, d.corners, position, d.options);
   const auto weights = blending_weights(theta, d.boundary, position);
+  const auto supports = support_boxes(d);
   Indicators values;
   values.n = 2 * theta.n_parts;
   values.begin.push_back(0);
@@ -106,11 +143,12 @@ Indicators weight_indicators(const Discretization<Dim>& d, const Points<Dim>& po
                          : i < d.boundary.n_parts() ? 0
                                                     : d.corners[i - d.boundary.n_parts()].radius;
       if (!of_part) pair = distances.begin[k];
+      const double variation = polynomial_variation<Dim>(supports[i], d.options.projection.degree, position.col(k));
       values.index.push_back(2 * i);
-      values.value.push_back(weights.w[e] * weights.w[e]);
+      values.value.push_back(variation * weights.w[e] * weights.w[e]);
       if (weights.gradient.empty()) continue;
       values.index.push_back(2 * i + 1);
-      values.value.push_back(rho * rho * weights.gradient[e].squaredNorm());
+      values.value.push_back(variation * rho * rho * weights.gradient[e].squaredNorm());
     }
     values.begin.push_back(int(values.index.size()));
   }
@@ -227,6 +265,14 @@ Map<Dim> map_at(const Discretization<Dim>& d, const Points<Dim>& position, bool 
                      d.projection, d.unknowns.size(), with_gradient, d.options.n_threads);
 }
 
+template <int Dim>
+Eigen::MatrixXd field_at(const Discretization<Dim>& d, const BlendedField<Dim>& field,
+                         const Points<Dim>& position) {
+  const auto theta = measure_theta(d.boundary, d.loops, d.corners, position, d.options).theta;
+  return dense_value(blended_map(position, blending_weights(theta, d.boundary, position), field.origins,
+                                 field.projection, field.n_functions, false, d.options.n_threads));
+}
+
 template Discretization<2> discretize<2>(const std::vector<std::vector<Nurbs<1, 2>>>&,
                                          const MethodOptions&);
 template Discretization<3> discretize<3>(const std::vector<std::vector<Nurbs<2, 3>>>&,
@@ -235,6 +281,8 @@ template BoundaryRule<2> boundary_rule<2>(const Discretization<2>&);
 template BoundaryRule<3> boundary_rule<3>(const Discretization<3>&);
 template int append_columns<2>(Discretization<2>&, int);
 template int append_columns<3>(Discretization<3>&, int);
+template Eigen::MatrixXd field_at<2>(const Discretization<2>&, const BlendedField<2>&, const Points<2>&);
+template Eigen::MatrixXd field_at<3>(const Discretization<3>&, const BlendedField<3>&, const Points<3>&);
 template Map<2> map_at<2>(const Discretization<2>&, const Points<2>&, bool);
 template Map<3> map_at<3>(const Discretization<3>&, const Points<3>&, bool);
 

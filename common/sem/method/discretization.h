@@ -21,6 +21,10 @@ enum class Formulation {
   condensed,  ///< unknowns are the coefficients, exact gradient, control points follow (coefficients.h)
 };
 
+/// Which materials get a pressure of its own in the condensed formulation, the means against locking
+/// (mechanics/pressure.h).
+enum class OwnPressure { automatic /* Poisson's ratio from 0.4 on */, always /* above 0 */, never };
+
 /// The options of every stage.
 struct MethodOptions {
   Formulation formulation = Formulation::projected;
@@ -30,6 +34,7 @@ struct MethodOptions {
   InteriorOptions interior_rule;
   WeightOptions weights;
   int corner_levels = 2;    ///< of patches at re-entrant corners, condensed only (corners.h)
+  OwnPressure own_pressure = OwnPressure::automatic;
   OriginChoice origins = OriginChoice::shared_parts;
   ProjectionOptions projection;
   int kept_columns = 0;     ///< draft eq. 14: columns of B kept per point, 0: all
@@ -91,5 +96,10 @@ int append_columns(Discretization<Dim>& discretization, int n);
 template <int Dim>
 Map<Dim> map_at(const Discretization<Dim>& discretization, const Points<Dim>& position,
                 bool with_gradient);
+
+/// Functions of a blended field at other rest points: values, dense, #points by #functions.
+template <int Dim>
+Eigen::MatrixXd field_at(const Discretization<Dim>& discretization, const BlendedField<Dim>& field,
+                         const Points<Dim>& position);
 
 }  // namespace sem

@@ -20,7 +20,7 @@ struct InteriorOptions {
   InteriorRule rule = InteriorRule::rays;
   double tolerance = 1e-10;  ///< relative error aimed at, of rules other than `rays`
   double waves = 2;          ///< waves over the body's largest extent that the rule resolves
-  double weight_tolerance = 1e-3;  ///< ResolvedOptions::tolerance
+  double weight_tolerance = 3e-4;  ///< ResolvedOptions::tolerance
   int fit = 0;               ///< > 0: new weights that match the boundary's moments to this degree
   int compress = 0;          ///< > 0: few points with the same moments to this degree
 };

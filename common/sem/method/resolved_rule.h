@@ -27,7 +27,7 @@ using IndicatorsAt = std::function<Indicators(const Points<Dim>&)>;
 struct ResolvedOptions {
   int axis = 0;             ///< of the rays
   int points = 5;           ///< Gauss points of a cell per direction
-  double tolerance = 1e-3;  ///< sum of the cells' changes when halved, relative to the integrals,
+  double tolerance = 3e-4;  ///< sum of the cells' changes when halved, relative to the integrals,
                             ///< both summed over the indicators
   int max_depth = 10;       ///< halvings of a cell per direction
   int max_points = 200000;

@@ -20,6 +20,11 @@ bool matches_part(const std::string& selected, const std::string& solid, const s
          selected == solid + "/" + group;
 }
 
+bool has_own_pressure(const MethodOptions& options, const Material& material) {
+  if (options.formulation != Formulation::condensed || options.own_pressure == OwnPressure::never) return false;
+  return material.poisson_ratio >= 0.4 || (options.own_pressure == OwnPressure::always && material.poisson_ratio > 0);
+}
+
 namespace {
 
 template <int Dim>
@@ -101,10 +106,17 @@ class Builder {
       for (int s = 0; s < dense.size(); ++s) dense.weight[s] *= part_densities_[dense.part[s]];
       model_->mass += scene_.kinetic_length * stability_matrix(d.on_boundary, dense, d.unknowns);
     }
-    model_->energy = std::make_unique<InternalEnergy<Dim>>(
-        d.interior, d.quadrature.weight, model_->materials,
-        condensed() ? Eigen::MatrixXd() : model_->stability_stiffness * model_->stability,
-        condensed() ? make_clamps() : Clamps<Dim>());
+    if (condensed()) {
+      Clamps<Dim> clamps = make_clamps();
+      Pressure<Dim> pressure = make_pressure(clamps.points());
+      model_->energy = std::make_unique<InternalEnergy<Dim>>(
+          d.interior, d.quadrature.weight, model_->materials, Eigen::MatrixXd(), std::move(clamps),
+          std::move(pressure));
+    } else {
+      model_->energy = std::make_unique<InternalEnergy<Dim>>(
+          d.interior, d.quadrature.weight, model_->materials,
+          model_->stability_stiffness * model_->stability);
+    }
     System& system = model_->system;
     system.potential = model_->energy.get();
     system.mass = expand(model_->mass, Dim);
@@ -222,6 +234,36 @@ class Builder {
     }
     points.map = map_at(d, points.position, true);
     return points;
+  }
+
+  // The pressure of the materials that have one of their own, a degree below the map's; empty if none has.
+  Pressure<Dim> make_pressure(const ClampedPoints<Dim>& clamps) {
+    const auto& d = model_->discretization;
+    const auto& field = model_->materials;
+    PressureFunctions<Dim> functions;
+    functions.lambda = VectorXd::Zero(d.quadrature.size());
+    VectorXd volume = VectorXd::Zero(d.quadrature.size());
+    for (int k = 0; k < d.quadrature.size(); ++k) {
+      const Material& material = field.materials[field.of_point[k]];
+      if (!has_own_pressure(scene_.method, material)) continue;
+      functions.lambda[k] = material.lame_lambda();
+      volume[k] = d.quadrature.weight[k];
+    }
+    if (volume.isZero(0)) return {};
+    if (scene_.method.kept_columns > 0)
+      throw InputError(file_, "method.kept_columns", std::to_string(scene_.method.kept_columns),
+                       "0 with a material that has a pressure of its own (method.own_pressure)");
+    model_->pressure = blended_field(d.quadrature.position, volume, d.weights, scene_.method.projection.degree - 1);
+    const auto& basis = model_->pressure;
+    functions.interior = blended_map(d.quadrature.position, d.weights, basis.origins, basis.projection,
+                                     basis.n_functions, false);
+    functions.on_clamps = Eigen::MatrixXd::Zero(clamps.size(), basis.n_functions);
+    if (clamps.size() > 0) functions.on_clamps = field_at(d, basis, clamps.position);
+    for (int s = 0; s < clamps.size(); ++s) {
+      functions.clamp_mixed.push_back(has_own_pressure(scene_.method, clamps.material[s]));
+      if (!functions.clamp_mixed[s]) functions.on_clamps.row(s).setZero();
+    }
+    return Pressure<Dim>(std::move(functions), d.quadrature.weight);
   }
 
   HeldControl<Dim> spring(int control, int pin) const {

@@ -28,6 +28,7 @@ struct Model {
   Eigen::MatrixXd mass;             ///< scalar mass matrix, kinetic stability term included
   Eigen::MatrixXd stability;        ///< scalar error form, without gamma
   double stability_stiffness = 0;   ///< gamma used, Pa/m
+  BlendedField<Dim> pressure;       ///< functions of the materials' own pressure; none: 0 functions
   std::unique_ptr<InternalEnergy<Dim>> energy;
   System system;                    ///< refers to energy
   State initial;
@@ -38,6 +39,9 @@ struct Model {
   double total_mass() const { return point_mass.sum(); }
   int n_unknowns() const { return int(system.free.size()); }
 };
+
+/// True if the material has a pressure of its own (mechanics/pressure.h) under these options.
+bool has_own_pressure(const MethodOptions& options, const Material& material);
 
 /// Runs the pipeline on the scene. Throws InputError, naming `file` and the
 /// field, for what only shows now: an empty interior, a pin or load that

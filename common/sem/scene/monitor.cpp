@@ -48,6 +48,10 @@ Monitor<Dim>::Monitor(const Scene<Dim>& scene, const Model<Dim>& model) : scene_
     int nearest = 0;
     if (at_point) (d.quadrature.position.colwise() - probe.at).colwise().squaredNorm().minCoeff(&nearest);
     probe_material_.push_back(model.materials.of_point[nearest]);
+    const Material& material = model.materials.materials[probe_material_.back()];
+    probe_pressure_.emplace_back();
+    if (probe.kind == ProbeKind::stress && has_own_pressure(scene.method, material))
+      probe_pressure_.back() = field_at<Dim>(d, model.pressure, probe.at).row(0);
   }
   const bool massless = model.total_mass() == 0;
   const VectorXd share = massless ? d.quadrature.weight : model.point_mass;
@@ -72,7 +76,7 @@ std::vector<std::string> Monitor<Dim>::columns() const {
 template <int Dim>
 std::vector<double> Monitor<Dim>::probes(const State& state, const VectorXd& acceleration) const {
   const Eigen::Map<const Points<Dim>> nodes(state.z.data(), Dim, model_.discretization.unknowns.size());
-  VectorXd reactions;
+  VectorXd reactions, own_pressure;
   std::vector<double> values;
   for (size_t i = 0; i < scene_.probes.size(); ++i) {
     const auto& probe = scene_.probes[i];
@@ -80,8 +84,12 @@ std::vector<double> Monitor<Dim>::probes(const State& state, const VectorXd& acc
       const Vec<Dim> u = evaluate(probe_maps_[i], state.z).col(0) - probe.at;
       values.insert(values.end(), u.begin(), u.end());
     } else if (probe.kind == ProbeKind::stress) {
+      if (probe_pressure_[i].size() > 0 && own_pressure.size() == 0)
+        own_pressure = model_.energy->pressure_coefficients(state.z);
+      const double pressure = probe_pressure_[i].size() > 0 ? probe_pressure_[i].dot(own_pressure) : 0;
       const Mat<Dim> stress = cauchy_stress<Dim>(model_.materials.materials[probe_material_[i]],
-                                                 deformation_gradient<Dim>(probe_maps_[i], nodes));
+                                                 deformation_gradient<Dim>(probe_maps_[i], nodes),
+                                                 probe_pressure_[i].size() > 0 ? &pressure : nullptr);
       for (int a = 0; a < Dim; ++a)
         for (int b = a; b < Dim; ++b) values.push_back(stress(a, b));
     } else {

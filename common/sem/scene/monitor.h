@@ -39,6 +39,7 @@ class Monitor {
   const Model<Dim>& model_;
   std::vector<Map<Dim>> probe_maps_;
   std::vector<int> probe_material_;
+  std::vector<Eigen::RowVectorXd> probe_pressure_;  // functions of the own pressure at stress probes, or empty
   std::vector<std::string> probe_columns_;
   std::vector<std::optional<double>> probe_truths_;
   Eigen::VectorXd centroid_;  ///< n_columns: centroid = nodes * centroid_

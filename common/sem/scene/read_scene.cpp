@@ -82,6 +82,8 @@ void describe_method(Fields& fields, MethodOptions& m) {
     m.interior_rule.rule = InteriorRule::resolved;
   }
   fields.integer("degree", m.projection.degree, 1, 4, "n, degree of the deformation polynomials");
+  fields.choice("own_pressure", m.own_pressure, {"automatic", "always", "never"},
+                "condensed: a pressure of its own, against locking, for materials with a Poisson's ratio from 0.4 on, above 0, for none");
   fields.choice("fit", m.projection.fit, {"degree_by_degree", "degree_by_degree_raw", "pseudo_inverse"},
                 "projection; pseudo_inverse is the draft's");
   fields.object("samples", "boundary samples", [&](Fields& f) {

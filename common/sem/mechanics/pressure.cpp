@@ -1,0 +1,66 @@
+#include "sem/mechanics/pressure.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <limits>
+
+namespace sem {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+template <int Dim>
+Pressure<Dim>::Pressure(PressureFunctions<Dim> functions, const VectorXd& weight)
+    : functions_(std::move(functions)), weight_(weight) {
+  const int n = functions_.interior.n_columns;
+  MatrixXd M = MatrixXd::Zero(n, n);
+  for (const auto& block : functions_.interior.blocks) {
+    VectorXd v = VectorXd::Zero(block.points.size());
+    for (size_t k = 0; k < block.points.size(); ++k) {
+      const int point = block.points[k];
+      if (functions_.lambda[point] > 0) v[k] = weight_[point] / functions_.lambda[point];
+    }
+    const MatrixXd scaled = v.asDiagonal() * block.value;
+    const MatrixXd product = block.value.transpose() * scaled;
+    for (size_t j = 0; j < block.columns.size(); ++j)
+      for (size_t i = 0; i < block.columns.size(); ++i) M(block.columns[i], block.columns[j]) += product(i, j);
+  }
+  factor_ = M.llt().matrixL();
+  interior_ = VectorXd::Zero(functions_.interior.n_points);
+  on_clamps_ = VectorXd::Constant(functions_.on_clamps.rows(), std::numeric_limits<double>::quiet_NaN());
+}
+
+template <int Dim>
+void Pressure<Dim>::solve(const VectorXd& g, const VectorXd& clamp_work) {
+  b_ = VectorXd::Zero(functions_.interior.n_columns);
+  for (const auto& block : functions_.interior.blocks)
+    for (size_t k = 0; k < block.points.size(); ++k) {
+      const int point = block.points[k];
+      if (!(functions_.lambda[point] > 0)) continue;
+      const double work = weight_[point] * g[point];
+      for (size_t j = 0; j < block.columns.size(); ++j) b_[block.columns[j]] += work * block.value(k, j);
+    }
+  for (int s = 0; s < clamp_work.size(); ++s)
+    if (functions_.clamp_mixed[s]) b_ += clamp_work[s] * functions_.on_clamps.row(s).transpose();
+  y_ = factor_.triangularView<Eigen::Lower>().solve(b_);
+  factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(y_);
+  for (const auto& block : functions_.interior.blocks)
+    for (size_t k = 0; k < block.points.size(); ++k) {
+      double p = 0;
+      for (size_t j = 0; j < block.columns.size(); ++j) p += block.value(k, j) * y_[block.columns[j]];
+      interior_[block.points[k]] = p;
+    }
+  for (int s = 0; s < on_clamps_.size(); ++s)
+    if (functions_.clamp_mixed[s]) on_clamps_[s] = functions_.on_clamps.row(s).dot(y_);
+}
+
+template <int Dim>
+void Pressure<Dim>::add_to_hessian(MatrixXd& G, MatrixXd& H) const {
+  factor_.triangularView<Eigen::Lower>().solveInPlace(G);
+  H.noalias() += G.transpose() * G;
+}
+
+template class Pressure<2>;
+template class Pressure<3>;
+
+}  // namespace sem
