@@ -1,11 +1,11 @@
 #include "sem/mechanics/material.h"
 
-#include <Eigen/SVD>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "sem/base/error.h"
+#include "sem/base/orthogonal_columns.h"
 #include "sem/solve/symmetric_eigen.h"
 
 namespace sem {
@@ -80,18 +80,24 @@ StressDerivative<2> rotation_derivative(const Mat<2>& F) {
   return t * t.transpose() / trace;
 }
 
-struct SignedSvd {  // F = U diag(s) V^T, det U = det V up to a common sign, s[2] signed
+struct SignedSvd {  // F = U diag(s) V^T, det U = det V = 1, s[2] has the sign of det F
   Mat<3> U, V;
   Vec<3> s;
 };
 SignedSvd signed_svd(const Mat<3>& F) {
-  const Eigen::JacobiSVD<Mat<3>> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  SignedSvd result{svd.matrixU(), svd.matrixV(), svd.singularValues()};
-  if (result.U.determinant() * result.V.determinant() < 0) {
-    result.U.col(2) = -result.U.col(2);
-    result.s(2) = -result.s(2);
+  Mat<3> A = F, V;  // A = F V = U diag(s)
+  orthogonalise_columns(A, V);
+  if (V.determinant() < 0) {
+    A.col(2) = -A.col(2);
+    V.col(2) = -V.col(2);
   }
-  return result;
+  const double a = A.col(0).norm(), b = A.col(1).norm();
+  const Vec<3> u = a > 0 ? Vec<3>(A.col(0) / a) : Vec<3>(V.col(0));
+  const Vec<3> v = b > 1e-15 * a ? Vec<3>(A.col(1) / b) : u.unitOrthogonal();
+  const Vec<3> w = u.cross(v);
+  Mat<3> U;
+  U << u, v, w;
+  return {U, V, {a, b, w.dot(A.col(2))}};
 }
 Mat<3> rotation(const Mat<3>& F) {
   const SignedSvd svd = signed_svd(F);
