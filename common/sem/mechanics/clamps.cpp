@@ -29,24 +29,23 @@ void visit_points(const ClampedPoints<Dim>& points, const VectorXd& z, const dou
                   const Visit& visit) {
   const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, points.map.n_columns);
   for (const auto& block : points.map.blocks) {
-    const Points<Dim> local = nodes(Eigen::all, block.columns);
     for (size_t row = 0; row < block.points.size(); ++row) {
       const int s = block.points[row];
-      const Vec<Dim> x = local * block.value.row(row).transpose();
-      HeldPoint<Dim> point{block,
+      Vec<Dim> x = Vec<Dim>::Zero();
+      for (size_t j = 0; j < block.columns.size(); ++j) x += block.value(row, j) * nodes.col(block.columns[j]);
+      const HeldPoint<Dim> point{block,
                            int(row),
                            points.held.col(s).cwiseProduct(x - points.position.col(s) -
                                                            nodes.col(points.pin_column[s])),
                            points.normal.col(s),
                            points.held.col(s),
-                           {},
+                           deformation_gradient(block, int(row), z),
                            points.weight[s],
                            points.penalty[s],
                            points.material[s],
                            points.pin_column[s],
                            pressure && !std::isnan(pressure[s]) ? pressure + s : nullptr,
                            s};
-      for (int b = 0; b < Dim; ++b) point.F.col(b) = local * block.gradient[b].row(row).transpose();
       visit(point);
     }
   }

@@ -7,11 +7,8 @@ namespace {
 // f += sum_k forces.col(k) (x) Gamma_k.
 template <int Dim>
 void add_forces(const Map<Dim>& map, const Points<Dim>& forces, Eigen::VectorXd& f) {
-  for (const auto& block : map.blocks) {
-    const Points<Dim> local = forces(Eigen::all, block.points) * block.value;
-    for (size_t j = 0; j < block.columns.size(); ++j)
-      f.template segment<Dim>(Dim * block.columns[j]) += local.col(j);
-  }
+  const Points<Dim> sum = evaluate_transposed(map, forces);
+  for (int j = 0; j < map.n_columns; ++j) f.template segment<Dim>(Dim * j) += sum.col(j);
 }
 
 }  // namespace

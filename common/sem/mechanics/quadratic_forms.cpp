@@ -1,5 +1,7 @@
 #include "sem/mechanics/quadratic_forms.h"
 
+#include "sem/method/least_squares.h"
+
 namespace sem {
 
 template <int Dim>
@@ -7,7 +9,7 @@ Eigen::MatrixXd mass_matrix(const Map<Dim>& interior, const Eigen::VectorXd& poi
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(interior.n_columns, interior.n_columns);
   for (const auto& block : interior.blocks) {
     const Eigen::VectorXd mass = point_mass(block.points);
-    M(block.columns, block.columns) += block.value.transpose() * mass.asDiagonal() * block.value;
+    M(block.columns, block.columns) += gram_matrix(block.value, mass);
   }
   return M;
 }
@@ -18,7 +20,7 @@ Eigen::MatrixXd stability_matrix(const Map<Dim>& on_boundary, const Samples<Dim>
   if (unknowns.S.size() > 0) {
     const Eigen::MatrixXd D = dense_value(on_boundary) -
                               sample_jacobian(samples, unknowns.n_controls()) * unknowns.S;
-    return D.transpose() * samples.weight.asDiagonal() * D;
+    return gram_matrix(D, samples.weight);
   }
   // S = I: a sample depends on the control points of its own part, which are among the block's columns.
   Eigen::MatrixXd form = Eigen::MatrixXd::Zero(on_boundary.n_columns, on_boundary.n_columns);
@@ -32,7 +34,7 @@ Eigen::MatrixXd stability_matrix(const Map<Dim>& on_boundary, const Samples<Dim>
         D(k, local[samples.column[e]]) -= samples.value[e];
     }
     const Eigen::VectorXd weight = samples.weight(block.points);
-    form(block.columns, block.columns) += D.transpose() * weight.asDiagonal() * D;
+    form(block.columns, block.columns) += gram_matrix(D, weight);
   }
   return form;
 }

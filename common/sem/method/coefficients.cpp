@@ -91,13 +91,13 @@ PartFit fit_of_columns(const Monomials<Dim>& monomials, const Vec<Dim>& center, 
 
 // Sum of grad . grad + value value / size^2 over the points.
 template <int Dim>
-MatrixXd gram_matrix(const Map<Dim>& map, const VectorXd& volume, double size) {
+MatrixXd gradient_gram_matrix(const Map<Dim>& map, const VectorXd& volume, double size) {
   MatrixXd G = MatrixXd::Zero(map.n_columns, map.n_columns);
   for (const auto& block : map.blocks) {
     const VectorXd v = volume(block.points);
-    MatrixXd sum = block.value.transpose() * (v / (size * size)).asDiagonal() * block.value;
-    for (int axis = 0; axis < Dim && block.gradient[axis].size() > 0; ++axis)
-      sum += block.gradient[axis].transpose() * v.asDiagonal() * block.gradient[axis];
+    MatrixXd sum = gram_matrix(block.value, v / (size * size));
+    for (const MatrixXd& gradient : block.gradient)
+      if (gradient.size() > 0) sum += gram_matrix(gradient, v);
     G(block.columns, block.columns) += sum;
   }
   return G;
@@ -154,7 +154,7 @@ FreeCoefficients<Dim> free_coefficients(const Points<Dim>& position, const Vecto
   };
   set_columns();
   const int n_candidates = Dim + 1 + int(column_of.size());
-  MatrixXd G = gram_matrix(
+  MatrixXd G = gradient_gram_matrix(
       blended_map(position, weights, free.origins, free.projection, n_candidates, true),
       volume, size);
   std::vector<int> chosen = independent_rows(G, Dim + 1, tolerance);

@@ -70,12 +70,10 @@ void choose_coefficients(Discretization<Dim>& d) {
 template <int Dim>
 double correct_gradients(Discretization<Dim>& d) {
   const BoundaryRule<Dim> rule = boundary_rule(d);
-  const Points<Dim> area = rule.normal * rule.samples.weight.asDiagonal();
+  Points<Dim> area = rule.normal;
+  for (int s = 0; s < rule.samples.size(); ++s) area.col(s) *= rule.samples.weight[s];
   const Map<Dim> map = map_at(d, rule.samples.position, false);
-  Points<Dim> flux = Points<Dim>::Zero(Dim, d.unknowns.size());
-  for (const auto& block : map.blocks)
-    flux(Eigen::all, block.columns) += area(Eigen::all, block.points) * block.value;
-  return satisfy_divergence_theorem(d.interior, d.quadrature.weight, flux);
+  return satisfy_divergence_theorem(d.interior, d.quadrature.weight, evaluate_transposed(map, area));
 }
 
 // Patches with fewer points than twice the coefficients of a polynomial are left out.

@@ -47,14 +47,15 @@ Eigen::Matrix<double, Dim, Dim - 1> normal_derivative(const Derivatives<Dim - 1,
   Eigen::Matrix<double, Dim - 1, Dim - 1> form;
   for (int a = 0; a < Dim - 1; ++a)
     for (int b = 0; b < Dim - 1; ++b) form(a, b) = at.second[second_index(a, b)].dot(normal);
-  return -at.first * metric.inverse() * form;
+  const Eigen::Matrix<double, Dim - 1, Dim - 1> shape = metric.inverse() * form;
+  return -at.first * shape;
 }
 
 // d(X - X*)/|X - X*| / dX.
 template <int Dim>
 Mat<Dim> direction_derivative(const Vec<Dim>& n, double d, const Mat<Dim>& foot) {
-  const Mat<Dim> I = Mat<Dim>::Identity();
-  return (I - n * n.transpose()) * (I - foot) / d;
+  const Mat<Dim> across = Mat<Dim>::Identity() - n * n.transpose(), slide = Mat<Dim>::Identity() - foot;
+  return across * slide / d;
 }
 
 // theta = f(d / alpha) h(side).
@@ -73,8 +74,9 @@ Vec<Dim> sided_gradient(const Nurbs<Dim - 1, Dim>& shape, const Distances<Dim>& 
   const Vec<Dim> N = unit_normal(shape, distances.foot_u[pair]);
   const FootMotion<Dim> foot = foot_motion<Dim>(at, X);
   const Mat<Dim> dn = direction_derivative<Dim>(n, d, foot.position);
-  const Vec<Dim> dside =
-      -outward * (dn.transpose() * N + (normal_derivative<Dim>(at, N) * foot.parameter).transpose() * n);
+  const Mat<Dim> dN = normal_derivative<Dim>(at, N) * foot.parameter;
+  const Vec<Dim> from_n = dn.transpose() * N, from_N = dN.transpose() * n;
+  const Vec<Dim> dside = -outward * (from_n + from_N);
   return gradient + profile.value * step.derivative * dside;
 }
 
@@ -91,7 +93,9 @@ Vec<Dim> theta_gradient(const Boundary<Dim>& boundary, const Distances<Dim>& dis
   const auto hit = derivatives(boundary.parts[distances.hit_part[pair]].nurbs, distances.hit_u[pair]);
   const Vec<Dim> N = DimTraits<Dim>::area_normal(hit.first);
   const double r = draft ? reach + d : reach;
-  Vec<Dim> dreach = -(C + r * dn).transpose() * N / N.dot(n);
+  const Mat<Dim> dhit = C + r * dn;
+  Vec<Dim> dreach = dhit.transpose() * N;
+  dreach /= -N.dot(n);
   if (draft) dreach -= n;
   return -n / reach + d / (reach * reach) * dreach;
 }

@@ -8,6 +8,19 @@ namespace sem {
 /// X of least norm among those that minimise |A X - B|; A of any shape and rank. A: m by n, B: m by k.
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
+/// Minimum-norm inverse of an m by n matrix.
+struct PseudoInverse {
+  Eigen::MatrixXd matrix;  ///< n by m
+  int rank;                ///< directions kept
+  double condition;        ///< largest over smallest pivot kept, a lower estimate of the condition; 1 at rank 0
+};
+
+/// Of A, by a complete orthogonal decomposition; pivots of at most tolerance * largest are cut.
+PseudoInverse pseudo_inverse(const Eigen::MatrixXd& A, double tolerance);
+
+/// A^T diag(weight) A, n by n. A: m by n.
+Eigen::MatrixXd gram_matrix(const Eigen::MatrixXd& A, const Eigen::VectorXd& weight);
+
 /// Orthonormal basis of A's column space, m by rank (rank: singular to rounding is left out).
 Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& A);
 

@@ -183,6 +183,27 @@ Points<Dim> evaluate(const Map<Dim>& map, const Eigen::VectorXd& z) {
   return x;
 }
 
+template <int Dim>
+Points<Dim> evaluate_transposed(const Map<Dim>& map, const Points<Dim>& values) {
+  Points<Dim> sum = Points<Dim>::Zero(Dim, map.n_columns);
+  for (const auto& block : map.blocks) {
+    const Points<Dim> local = values(Eigen::all, block.points);
+    for (size_t j = 0; j < block.columns.size(); ++j)
+      sum.col(block.columns[j]) += local * block.value.col(j);
+  }
+  return sum;
+}
+
+template <int Dim>
+Mat<Dim> deformation_gradient(const MapBlock<Dim>& block, int row, const VectorXd& z) {
+  Mat<Dim> F = Mat<Dim>::Zero();
+  for (size_t j = 0; j < block.columns.size(); ++j) {
+    const Vec<Dim> z_j = z.segment<Dim>(Dim * block.columns[j]);
+    for (int b = 0; b < Dim; ++b) F.col(b) += block.gradient[b](row, j) * z_j;
+  }
+  return F;
+}
+
 #define SEM_INSTANTIATE(Dim)                                                                      \
   template struct Map<Dim>;                                                                       \
   template Map<Dim> blended_map<Dim>(const Points<Dim>&, const BlendingWeights<Dim>&,             \
@@ -190,7 +211,9 @@ Points<Dim> evaluate(const Map<Dim>& map, const Eigen::VectorXd& z) {
   template PruneReport prune<Dim>(Map<Dim>&, int, bool);                                          \
   template MatrixXd dense_value<Dim>(const Map<Dim>&);                                            \
   template MatrixXd dense_gradient<Dim>(const Map<Dim>&, int);                                    \
-  template Points<Dim> evaluate<Dim>(const Map<Dim>&, const VectorXd&);
+  template Points<Dim> evaluate<Dim>(const Map<Dim>&, const VectorXd&);                           \
+  template Points<Dim> evaluate_transposed<Dim>(const Map<Dim>&, const Points<Dim>&);             \
+  template Mat<Dim> deformation_gradient<Dim>(const MapBlock<Dim>&, int, const VectorXd&);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
 

@@ -63,4 +63,12 @@ Eigen::MatrixXd dense_gradient(const Map<Dim>& map, int axis);
 template <int Dim>
 Points<Dim> evaluate(const Map<Dim>& map, const Eigen::VectorXd& z);
 
+/// sum_k values.col(k) Gamma_k, Dim by n_columns: the transpose of `evaluate`. values: Dim by #points.
+template <int Dim>
+Points<Dim> evaluate_transposed(const Map<Dim>& map, const Points<Dim>& values);
+
+/// F for unknowns z at the block's point of this row.
+template <int Dim>
+Mat<Dim> deformation_gradient(const MapBlock<Dim>& block, int row, const Eigen::VectorXd& z);
+
 }  // namespace sem

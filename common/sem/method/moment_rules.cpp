@@ -93,7 +93,7 @@ MomentReport fit_moments(Quadrature<Dim>& rule, int degree, const Vec<Dim>& cent
   VectorXd weight = rule.weight, misfit = wanted - basis.values.transpose() * weight;
   for (int iteration = 0; iteration < 50 && misfit.norm() > 1e-15 * wanted.norm(); ++iteration) {
     const VectorXd active = (weight.array() > 0).select(rule.weight, 0.0);
-    MatrixXd H = basis.values.transpose() * active.asDiagonal() * basis.values;
+    MatrixXd H = gram_matrix(basis.values, active);
     H.diagonal().array() += 1e-14;
     const VectorXd direction = least_squares(H, misfit);
     double step = 1;

@@ -1,37 +1,17 @@
 #include "sem/method/projection.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sem/base/error.h"
+#include "sem/method/least_squares.h"
 
 namespace sem {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-struct PseudoInverse {
-  MatrixXd matrix;
-  int rank;
-  double condition;
-};
-
-// Minimum-norm inverse of A; singular values below tolerance * largest are cut.
-PseudoInverse pseudo_inverse(const MatrixXd& A, double tolerance) {
-  const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const VectorXd& sigma = svd.singularValues();
-  int rank = 0;
-  while (rank < sigma.size() && sigma[rank] > tolerance * sigma[0]) ++rank;
-  PseudoInverse result;
-  result.rank = rank;
-  result.condition = rank > 0 ? sigma[0] / sigma[rank - 1] : 1;
-  result.matrix = svd.matrixV().leftCols(rank) *
-                  sigma.head(rank).cwiseInverse().asDiagonal() *
-                  svd.matrixU().leftCols(rank).transpose();
-  return result;
-}
 
 // Control points that the samples of the given parts depend on, ascending.
 template <int Dim>
@@ -73,6 +53,12 @@ Eigen::RowVectorXd mean_row(const Samples<Dim>& samples, const std::vector<int>&
   return row / total;
 }
 
+// diag(root) (J - 1 t^T).
+MatrixXd weighted_offsets(const VectorXd& root, MatrixXd J, const Eigen::RowVectorXd& t) {
+  for (int s = 0; s < J.rows(); ++s) J.row(s) = root[s] * (J.row(s) - t);
+  return J;
+}
+
 // The linear part fitted to all samples of a set of parts, in the monomials of (X - origin) / fit.scale.
 template <int Dim>
 MatrixXd linear_fit_of_set(const Samples<Dim>& samples, const std::vector<int>& set,
@@ -84,10 +70,10 @@ MatrixXd linear_fit_of_set(const Samples<Dim>& samples, const std::vector<int>& 
   for (const int i : set) {
     const int first = samples.first[i], size = samples.first[i + 1] - first;
     const VectorXd root = samples.weight.segment(first, size).cwiseSqrt();
-    const MatrixXd offset = samples.position.middleCols(first, size).colwise() - origin;
-    A.middleRows(row, size) = root.asDiagonal() * offset.transpose() / fit.scale;
+    for (int s = 0; s < size; ++s)
+      A.row(row + s) = root[s] / fit.scale * (samples.position.col(first + s) - origin);
     rest.middleRows(row, size) =
-        root.asDiagonal() * (jacobian(samples, i, fit.columns) - VectorXd::Ones(size) * fit.translation);
+        weighted_offsets(root, jacobian(samples, i, fit.columns), fit.translation);
     row += size;
   }
   return pseudo_inverse(A, tolerance).matrix * rest;
@@ -105,17 +91,18 @@ PartFit fit_part(const Samples<Dim>& samples, int part, const std::vector<int>& 
 
   const int first = samples.first[part], n = samples.first[part + 1] - first;
   const VectorXd root = samples.weight.segment(first, n).cwiseSqrt();
-  const auto offset = samples.position.middleCols(first, n).colwise() - origin;
+  const Points<Dim> offset = samples.position.middleCols(first, n).colwise() - origin;
   if (options.fit == FitKind::degree_by_degree) {
     const VectorXd distance2 = offset.colwise().squaredNorm();
     fit.scale = std::sqrt(root.cwiseAbs2().dot(distance2) / root.squaredNorm());
     if (!(fit.scale > 0)) fit.scale = 1;
   }
-  MatrixXd m(n, monomials.size());
-  for (int s = 0; s < n; ++s) monomials.values(offset.col(s) / fit.scale, m.row(s));
-  const MatrixXd A = root.asDiagonal() * m;
-  MatrixXd rest = root.asDiagonal() * (jacobian(samples, part, fit.columns) -
-                                       VectorXd::Ones(n) * fit.translation);
+  MatrixXd A(n, monomials.size());
+  for (int s = 0; s < n; ++s) {
+    monomials.values(offset.col(s) / fit.scale, A.row(s));
+    A.row(s) *= root[s];
+  }
+  MatrixXd rest = weighted_offsets(root, jacobian(samples, part, fit.columns), fit.translation);
 
   const double rounding = std::numeric_limits<double>::epsilon() * std::max(n, monomials.size());
   const double tolerance =
@@ -125,16 +112,16 @@ PartFit fit_part(const Samples<Dim>& samples, int part, const std::vector<int>& 
   for (int k = 1; k <= n_fits; ++k) {
     const int begin = n_fits == 1 ? 0 : monomials.first(k);
     const int size = (n_fits == 1 ? monomials.size() : monomials.first(k + 1)) - begin;
-    const PseudoInverse inverse = pseudo_inverse(A.middleCols(begin, size), tolerance);
-    fit.coefficients.middleRows(begin, size) = inverse.matrix * rest;
+    const MatrixXd A_k = A.middleCols(begin, size);
+    const PseudoInverse inverse = pseudo_inverse(A_k, tolerance);
+    MatrixXd c_k = inverse.matrix * rest;
     if (k == 1 && options.fit == FitKind::degree_by_degree && inverse.rank < Dim) {
-      const MatrixXd undetermined =
-          MatrixXd::Identity(Dim, Dim) - inverse.matrix * A.leftCols(Dim);
-      fit.coefficients.topRows(Dim) +=
-          undetermined * linear_fit_of_set(samples, set, origin, fit, tolerance);
+      const MatrixXd undetermined = MatrixXd::Identity(Dim, Dim) - inverse.matrix * A_k;
+      c_k += undetermined * linear_fit_of_set(samples, set, origin, fit, tolerance);
       fit.borrowed = true;
     }
-    rest -= A.middleCols(begin, size) * fit.coefficients.middleRows(begin, size);
+    rest -= A_k * c_k;
+    fit.coefficients.middleRows(begin, size) = c_k;
     fit.rank.push_back(inverse.rank);
     if (k == 1) fit.condition = inverse.condition;
   }

@@ -18,7 +18,7 @@ enum class FitKind {
 struct ProjectionOptions {
   int degree = 1;                            ///< n, 1 to 4
   FitKind fit = FitKind::degree_by_degree;
-  double rank_tolerance = 1e-8;  ///< relative singular value below which a direction is not determined
+  double rank_tolerance = 1e-8;  ///< relative pivot below which a direction is not determined
 };
 
 /// The fit of one part. Scalar: every component of p is projected by the same matrix.
@@ -29,7 +29,7 @@ struct PartFit {
   double scale = 1;              ///< h_i, m: c_i belongs to the monomials of (X - origin) / h_i
   std::vector<int> rank;         ///< determined directions: per degree, or one entry (pseudo-inverse)
   bool borrowed = false;         ///< the linear fit took directions from the origin's set
-  double condition = 1;          ///< largest over smallest singular value kept in the first fit
+  double condition = 1;          ///< largest over smallest pivot kept in the first fit
 };
 
 /// Fits of all parts.
@@ -46,8 +46,8 @@ struct Projection {
 /// what is left, ... A straight part (X and XY coincide on y = h) keeps an
 /// affine field that way, unless its origin lies on its line. Orthogonalised:
 /// monomials are scaled by the samples' root mean square distance from the
-/// origin, each degree's block is orthogonalised by its singular value
-/// decomposition, and directions below rank_tolerance, which the samples do not
+/// origin, each degree's block is orthogonalised with its
+/// rank revealed (least_squares.h), and directions below rank_tolerance, which the samples do not
 /// determine, get zero - but in the linear part (an origin on a straight part's
 /// line, where F would lose a dimension): there they follow the linear fit of all
 /// samples of the origin's set, and affine fields are kept (our addition). Raw: no scaling, and only directions at rounding level

@@ -40,13 +40,12 @@ double test_energy(const Model<Dim>& model, const Quadrature<Dim>& rule) {
       p(a, c) += size / 40 * (next * next + xi[a] * next);
     }
   }
-  const Points<Dim> z = unknowns_for(d.unknowns, p);
+  const Points<Dim> vectors = unknowns_for(d.unknowns, p);
+  const Eigen::VectorXd z = vectors.reshaped();
   double energy = 0;
   for (const auto& block : map_at(d, rule.position, true).blocks) {
-    const Points<Dim> nodes = z(Eigen::all, block.columns);
     for (size_t k = 0; k < block.points.size(); ++k) {
-      Mat<Dim> F;
-      for (int axis = 0; axis < Dim; ++axis) F.col(axis) = nodes * block.gradient[axis].row(k).transpose();
+      const Mat<Dim> F = deformation_gradient(block, int(k), z);
       Material material = model.materials.materials[rule.solid[block.points[k]]];
       material.model = MaterialModel::linear;
       energy += rule.weight[block.points[k]] * energy_density<Dim>(material, F);
@@ -80,12 +79,11 @@ Accuracy<Dim> measure_accuracy(const Model<Dim>& model) {
   a.gap_share = d.rays.capped_length / a.quadrature.volume;
   const Points<Dim> x = evaluate(d.interior, model.system.rest);
   a.identity_error = (x - d.quadrature.position).colwise().norm().maxCoeff() / size;
-  const Points<Dim>& p = d.unknowns.rest;
-  for (int axis = 0; axis < Dim; ++axis)
-    for (const auto& block : d.interior.blocks) {
-      Points<Dim> column = p(Eigen::all, block.columns) * block.gradient[axis].transpose();
-      column.row(axis).array() -= 1;
-      a.identity_gradient_error = std::max(a.identity_gradient_error, column.cwiseAbs().maxCoeff());
+  for (const auto& block : d.interior.blocks)
+    for (size_t k = 0; k < block.points.size(); ++k) {
+      const Mat<Dim> F = deformation_gradient(block, int(k), model.system.rest);
+      a.identity_gradient_error =
+          std::max(a.identity_gradient_error, (F - Mat<Dim>::Identity()).cwiseAbs().maxCoeff());
     }
   for (const auto& fit : d.projection.parts) {
     a.worst_fit_condition = std::max(a.worst_fit_condition, fit.condition);

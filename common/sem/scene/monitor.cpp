@@ -22,16 +22,6 @@ std::vector<std::string> columns_of(const Probe<Dim>& probe) {
   return columns;
 }
 
-// F at the only point of a map.
-template <int Dim>
-Mat<Dim> deformation_gradient(const Map<Dim>& map, const Eigen::Map<const Points<Dim>>& nodes) {
-  const auto& block = map.blocks[0];
-  Mat<Dim> F;
-  for (int b = 0; b < Dim; ++b)
-    F.col(b) = nodes(Eigen::all, block.columns) * block.gradient[b].row(0).transpose();
-  return F;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -56,8 +46,11 @@ Monitor<Dim>::Monitor(const Scene<Dim>& scene, const Model<Dim>& model) : scene_
   const bool massless = model.total_mass() == 0;
   const VectorXd share = massless ? d.quadrature.weight : model.point_mass;
   centroid_ = VectorXd::Zero(d.unknowns.size());
-  for (const auto& block : d.interior.blocks)
-    centroid_(block.columns) += block.value.transpose() * share(block.points) / share.sum();
+  for (const auto& block : d.interior.blocks) {
+    const VectorXd local = share(block.points) / share.sum();
+    for (size_t j = 0; j < block.columns.size(); ++j)
+      centroid_[block.columns[j]] += block.value.col(j).dot(local);
+  }
 }
 
 template <int Dim>
@@ -75,7 +68,6 @@ std::vector<std::string> Monitor<Dim>::columns() const {
 
 template <int Dim>
 std::vector<double> Monitor<Dim>::probes(const State& state, const VectorXd& acceleration) const {
-  const Eigen::Map<const Points<Dim>> nodes(state.z.data(), Dim, model_.discretization.unknowns.size());
   VectorXd reactions, own_pressure;
   std::vector<double> values;
   for (size_t i = 0; i < scene_.probes.size(); ++i) {
@@ -88,7 +80,7 @@ std::vector<double> Monitor<Dim>::probes(const State& state, const VectorXd& acc
         own_pressure = model_.energy->pressure_coefficients(state.z);
       const double pressure = probe_pressure_[i].size() > 0 ? probe_pressure_[i].dot(own_pressure) : 0;
       const Mat<Dim> stress = cauchy_stress<Dim>(model_.materials.materials[probe_material_[i]],
-                                                 deformation_gradient<Dim>(probe_maps_[i], nodes),
+                                                 deformation_gradient(probe_maps_[i].blocks[0], 0, state.z),
                                                  probe_pressure_[i].size() > 0 ? &pressure : nullptr);
       for (int a = 0; a < Dim; ++a)
         for (int b = a; b < Dim; ++b) values.push_back(stress(a, b));
@@ -120,7 +112,11 @@ std::vector<double> Monitor<Dim>::row(const State& state, const VectorXd& accele
                                       double residual, int n_substeps) const {
   const int n = model_.discretization.unknowns.size();
   const Eigen::Map<const Points<Dim>> nodes(state.z.data(), Dim, n), rates(state.v.data(), Dim, n);
-  const Points<Dim> momenta = rates * model_.mass;
+  Points<Dim> momenta(Dim, n);
+  for (int a = 0; a < Dim; ++a) {
+    const VectorXd rate = rates.row(a);
+    momenta.row(a) = model_.mass * rate;
+  }
   const double kinetic = rates.cwiseProduct(momenta).sum() / 2;
   const double elastic = model_.energy->elastic_energy(state.z);
   const double stability = model_.energy->stability_energy(state.z);
@@ -128,11 +124,15 @@ std::vector<double> Monitor<Dim>::row(const State& state, const VectorXd& accele
   std::vector<double> row = {double(state.step), state.time, kinetic, elastic, stability, load,
                              kinetic + elastic + stability + load, double(iterations), residual,
                              double(n_substeps)};
-  const Vec<Dim> centroid = nodes * centroid_, momentum = momenta * model_.discretization.unknowns.one;
+  Vec<Dim> centroid = Vec<Dim>::Zero(), momentum = Vec<Dim>::Zero();
+  auto angular = DimTraits<Dim>::cross(Vec<Dim>::Zero(), Vec<Dim>::Zero());
+  for (int j = 0; j < n; ++j) {
+    centroid += centroid_[j] * nodes.col(j);
+    momentum += model_.discretization.unknowns.one[j] * momenta.col(j);
+    angular += DimTraits<Dim>::cross(nodes.col(j), momenta.col(j));
+  }
   row.insert(row.end(), centroid.begin(), centroid.end());
   row.insert(row.end(), momentum.begin(), momentum.end());
-  auto angular = DimTraits<Dim>::cross(Vec<Dim>::Zero(), Vec<Dim>::Zero());
-  for (int j = 0; j < n; ++j) angular += DimTraits<Dim>::cross(nodes.col(j), momenta.col(j));
   row.insert(row.end(), angular.begin(), angular.end());
   row.push_back(boundary_mismatch(state));
   const auto values = probes(state, acceleration);

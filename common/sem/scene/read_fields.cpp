@@ -11,7 +11,7 @@
 namespace sem {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 // A value as it stands in the file, shortened.
 std::string shown(const Json& value) {
