@@ -127,6 +127,20 @@ void time_curve(Random& random, std::vector<KernelTime>& times) {
         Vec<2> slope;
         return textbook::curve(curve, u[i][0], &slope).sum() + slope.sum();
       }));
+  const PreparedNurbs<1, 2> prepared = prepare(curve);
+  times.push_back(compare(
+      "curve point, prepared", [&](int i) { return point(prepared, u[i]).sum(); },
+      [&](int i) { return textbook::curve(curve, u[i][0]).sum(); }));
+  times.push_back(compare(
+      "curve point, 1st derivative, prepared",
+      [&](int i) {
+        const auto d = point_slopes(prepared, u[i]);
+        return d.point.sum() + d.first.sum();
+      },
+      [&](int i) {
+        Vec<2> slope;
+        return textbook::curve(curve, u[i][0], &slope).sum() + slope.sum();
+      }));
   times.push_back(compare(
       "curve basis, 1st derivative",
       [&](int i) {
@@ -143,7 +157,6 @@ void time_curve(Random& random, std::vector<KernelTime>& times) {
         return d.point[0] + d.first(0, 0) + d.second[0][0];
       }));
 
-  const PreparedNurbs<1, 2> prepared = prepare(curve);
   std::vector<Vec<2>> from(n_queries), to(n_queries);
   for (int i = 0; i < n_queries; ++i)
     from[i] = random.in<2>(-1.3, 1.3), to[i] = random.in<2>(-1.3, 1.3);
@@ -191,6 +204,20 @@ void time_surface(Random& random, std::vector<KernelTime>& times) {
         Eigen::Matrix<double, 3, 2> first;
         return textbook::surface(surface, u[i], &first).sum() + first.sum();
       }));
+  const PreparedNurbs<2, 3> prepared = prepare(surface);
+  times.push_back(compare(
+      "surface point, prepared", [&](int i) { return point(prepared, u[i]).sum(); },
+      [&](int i) { return textbook::surface(surface, u[i]).sum(); }));
+  times.push_back(compare(
+      "surface point, 1st derivatives, prepared",
+      [&](int i) {
+        const auto d = point_slopes(prepared, u[i]);
+        return d.point.sum() + d.first.sum();
+      },
+      [&](int i) {
+        Eigen::Matrix<double, 3, 2> first;
+        return textbook::surface(surface, u[i], &first).sum() + first.sum();
+      }));
   times.push_back(compare(
       "surface basis, 1st derivatives",
       [&](int i) {
@@ -207,7 +234,6 @@ void time_surface(Random& random, std::vector<KernelTime>& times) {
         return d.point[0] + d.first(0, 0) + d.second[0][0];
       }));
 
-  const PreparedNurbs<2, 3> prepared = prepare(surface);
   std::vector<Vec<3>> from(n_queries), to(n_queries);
   for (int i = 0; i < n_queries; ++i) from[i] = random.in<3>(-1, 1), to[i] = random.in<3>(-1, 1);
   std::vector<Hit<3>> hits;

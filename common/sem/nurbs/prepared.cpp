@@ -2,6 +2,7 @@
 
 #include "sem/nurbs/axis_map.h"
 #include "sem/nurbs/bernstein.h"
+#include "sem/nurbs/power_form.h"
 
 namespace sem {
 namespace {
@@ -110,6 +111,7 @@ PreparedNurbs<ParamDim, Dim> prepare(const Nurbs<ParamDim, Dim>& nurbs) {
       index[axis] = 0;
     }
   }
+  result.power = detail::make_power_form(result);
   return result;
 }
 

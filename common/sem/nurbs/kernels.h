@@ -1,0 +1,79 @@
+#pragma once
+// Internal: the inner loops over prepared tables. kernels_body.h is compiled
+// twice, for any processor and for x86-64 with AVX2 and FMA; the better one is
+// chosen when the program starts. Plain data only, so that no inline function
+// of another header is compiled with these instructions and used elsewhere.
+
+namespace sem::detail {
+
+/// A knot span [start of it, end): local coordinate t = (u - centre) * inverse_half in [-1, 1].
+struct KernelSpan {
+  double end;  ///< infinity for the last one
+  double centre, inverse_half;
+  long offset;  ///< what it adds to the place of a piece's coefficients
+};
+
+/// Finds the span of a parameter: that of its bucket, then onwards. Buckets of equal width cover
+/// the domain; for uniform knots they are the spans.
+struct KernelAxis {
+  double lower, upper;  ///< domain
+  double buckets_per_unit;
+  const KernelSpan* const* first;  ///< per bucket
+  int degree;
+};
+
+/// What hits of plane curves need, per piece: n_lanes (degree + 1 rounded up to a multiple of 4)
+/// values each of the control points' x and y (the last repeated), and of the power coefficients
+/// of (x - origin_x) w, (y - origin_y) w and w (zeros appended).
+struct LineForm {
+  const double *x, *y;
+  const double *power_x, *power_y, *power_w, *origin;
+  int n_pieces, degree, n_lanes;
+};
+
+struct PowerForm;
+using PointKernel = void (*)(const PowerForm&, const double* u, double* point);
+using SlopeKernel = void (*)(const PowerForm&, const double* u, double* point, double* slopes);
+
+/// Homogeneous coordinates of every piece as polynomials in the local coordinates:
+/// (C - origin) w and w = sum_ij c_ij t_u^i t_v^j, i fastest. Entries are (x, y, z, w), z = 0 in
+/// the plane; 4 doubles of the origin come first, then the c_ij. What the kernels write has 4
+/// doubles a vector, the last without meaning, and is aligned to 32 bytes.
+struct PowerForm {
+  KernelAxis axis[2];  ///< curves: one
+  const double* coefficient;
+  PointKernel point;
+  SlopeKernel slopes;
+  LineForm line;  ///< curves in the plane
+};
+
+/// A line: zeros of normal.(X - origin); places along it direction.(X - origin).
+struct KernelLine {
+  double origin[2], normal[2], direction[2];
+};
+
+/// Where a piece crosses a line: local coordinate in [-1, 1], place along the line, and the
+/// tangent's components along normal and direction, up to a common factor.
+struct LineCrossing {
+  double local, along, across_slope, along_slope;
+};
+
+/// One instruction set's. Evaluation: by the degree (of both axes), 0 for any.
+struct Kernels {
+  PointKernel curve_point[4], surface_point[4];
+  SlopeKernel curve_slope[4], surface_slopes[4];
+  /// Bit k: the control points of piece first + k are not all farther than the tolerance on one
+  /// side of the line. At most 64 pieces.
+  unsigned long long (*near_line)(const LineForm&, const KernelLine&, double tolerance, int first);
+  /// The crossing of a piece whose coefficients are monotone with a sign change; `start` is where
+  /// to begin. False if Newton's (Halley's) steps do not settle inside [-1, 1].
+  bool (*cross_line)(const LineForm&, const KernelLine&, int piece, double start, LineCrossing&);
+};
+
+extern const Kernels portable_kernels;
+extern const Kernels avx2_kernels;  ///< only call after a check of the processor; x86-64 only
+
+/// The kernels for this processor.
+extern const Kernels* kernels;
+
+}  // namespace sem::detail
