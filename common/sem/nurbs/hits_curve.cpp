@@ -106,25 +106,22 @@ class CurveHits {
     return std::abs(side(piece.points.col(i))) <= tolerance_;
   }
 
-  // The usual case: both ends off the line, one crossing by monotone coefficients. False if it is
-  // not that.
+  // The usual case: both ends off the line, one sign change of the coefficients and so one
+  // crossing. False if it is not that.
   bool add_simple(int k) {
     if (!power_) return false;
     const BezierPiece<1, 2>& piece = part_.pieces[k];
     const int n = piece.degree[0];
-    double f[max_coefficients];
+    double f[max_coefficients];  // without the weights, which change no sign
     for (int i = 0; i <= n; ++i) f[i] = side(piece.points.col(i));
     if (std::abs(f[0]) <= tolerance_ || std::abs(f[n]) <= tolerance_ || (f[0] > 0) == (f[n] > 0))
       return false;
-    for (int i = 0; i <= n; ++i) f[i] *= piece.weights[i];
-    bool rises = true, falls = true;
-    for (int i = 0; i < n; ++i) {
-      rises &= f[i] < f[i + 1];
-      falls &= f[i] > f[i + 1];
-    }
-    if (!rises && !falls) return false;
+    int n_changes = 0;
+    for (int i = 0; i < n; ++i) n_changes += (f[i] > 0) != (f[i + 1] > 0);
+    if (n_changes > 1) return false;
     detail::LineCrossing at;
-    const double start = (f[0] + f[n]) / (f[0] - f[n]);
+    const double first = f[0] * piece.weights[0], last = f[n] * piece.weights[n];
+    const double start = (first + last) / (first - last);
     if (!detail::kernels->cross_line(power_->line, kernel_line_, k, start, at)) return false;
     const double s = 0.5 + 0.5 * at.local;
     if (!(s > 0 && s < 1)) return false;

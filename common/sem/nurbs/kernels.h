@@ -58,6 +58,26 @@ struct LineCrossing {
   double local, along, across_slope, along_slope;
 };
 
+/// Chords of a curve in the plane: start, step to the end, 1 / its square (0 if it is 0), and how
+/// far the curve may be from the chord; n rounded up to a multiple of 4 by repeating the last.
+struct ChordForm {
+  const double *x, *y, *step_x, *step_y, *inverse_square, *reach;
+  int n;
+};
+
+/// Polynomials c - (a x + b y) of one degree: rows of n_lanes (degree + 1 rounded up to a multiple
+/// of 4, zeros appended) with the Bernstein coefficients of c, a and b, then those of the powers
+/// of 2 s - 1.
+struct FootForm {
+  const double* rows;
+  int degree, n_lanes;
+};
+
+/// Bit i: coefficient i is above, below a bound of its rounding.
+struct Signs {
+  unsigned positive, negative;
+};
+
 /// One instruction set's. Evaluation: by the degree (of both axes), 0 for any.
 struct Kernels {
   PointKernel curve_point[4], surface_point[4];
@@ -65,6 +85,15 @@ struct Kernels {
   /// Bit k: the control points of piece first + k are not all farther than the tolerance on one
   /// side of the line. At most 64 pieces.
   unsigned long long (*near_line)(const LineForm&, const KernelLine&, double tolerance, int first);
+  /// The squared distance of (x, y) from every chord; returns the least one from their start
+  /// points, and the chord that is nearest.
+  double (*chord_squares)(const ChordForm&, double x, double y, double* square, int* nearest);
+  /// Bit k: chord first + k (at most 64) is within `distance` + its reach, by these squares.
+  unsigned long long (*near_chords)(const ChordForm&, const double* square, double distance,
+                                    int first);
+  Signs (*foot_signs)(const FootForm&, double x, double y, double rounding);
+  /// The root in [0, 1] near `s`; false if Halley's steps leave it. Degree at most 15.
+  bool (*foot_root)(const FootForm&, double x, double y, double& s);
   /// The crossing of a piece whose coefficients are monotone with a sign change; `start` is where
   /// to begin. False if Newton's (Halley's) steps do not settle inside [-1, 1].
   bool (*cross_line)(const LineForm&, const KernelLine&, int piece, double start, LineCrossing&);

@@ -8,21 +8,23 @@ namespace {
 #define SEM_INLINE inline __attribute__((always_inline))
 
 typedef double V4 __attribute__((vector_size(32), aligned(32)));
-typedef double V4Unaligned __attribute__((vector_size(32), aligned(8)));
 typedef long long M4 __attribute__((vector_size(32)));
 
 SEM_INLINE V4 load(const double* x) { return *reinterpret_cast<const V4*>(x); }
 SEM_INLINE V4 all(double x) { return V4{x, x, x, x}; }
-SEM_INLINE double larger(double a, double b) { return a > b ? a : b; }
 SEM_INLINE double smaller(double a, double b) { return a < b ? a : b; }
 
-// Whether all four lanes are true.
-SEM_INLINE bool all_true(M4 mask) {
+// Bit i: lane i is true.
+SEM_INLINE unsigned long long lanes(M4 mask) {
 #ifdef __AVX__
-  return __builtin_ia32_movmskpd256(V4(mask)) == 15;
+  return (unsigned long long)__builtin_ia32_movmskpd256(V4(mask));
 #else
-  return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
+  return (unsigned long long)((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
 #endif
+}
+
+SEM_INLINE double least_lane(V4 x) {
+  return smaller(smaller(x[0], x[1]), smaller(x[2], x[3]));
 }
 
 // The span that holds u and the local coordinate there; u outside is moved to the end of the
@@ -163,10 +165,49 @@ unsigned long long near_line(const LineForm& form, const KernelLine& line, doubl
       positive &= side > above;
       negative &= side < below;
     }
-    near |= (unsigned long long)(!all_true(positive) && !all_true(negative)) << k;
+    near |= (unsigned long long)(lanes(positive) != 15 && lanes(negative) != 15) << k;
   }
   return near;
 }
+
+double chord_squares(const ChordForm& form, double x, double y, double* square, int* nearest) {
+  V4 least = all(1e308), least_square = least;
+  for (int k = 0; k < form.n; k += 4) {
+    const V4 a_x = all(x) - load(form.x + k), a_y = all(y) - load(form.y + k);
+    const V4 d_x = load(form.step_x + k), d_y = load(form.step_y + k);
+    const V4 to_start = a_x * a_x + a_y * a_y;
+    V4 t = (a_x * d_x + a_y * d_y) * load(form.inverse_square + k);
+    t = t > all(0) ? t : all(0);
+    t = t < all(1) ? t : all(1);
+    const V4 b_x = a_x - t * d_x, b_y = a_y - t * d_y;
+    const V4 distance = b_x * b_x + b_y * b_y;
+    store(distance, square + k);
+    least_square = distance < least_square ? distance : least_square;
+    least = to_start < least ? to_start : least;
+  }
+  const V4 bound = all(least_lane(least_square));
+  *nearest = 0;
+  for (int k = 0; k < form.n; k += 4)
+    if (const auto equal = lanes(load(square + k) == bound)) {
+      *nearest = k + __builtin_ctzll(equal);
+      break;
+    }
+  return least_lane(least);
+}
+
+unsigned long long near_chords(const ChordForm& form, const double* square, double distance,
+                               int first) {
+  const int end = first + 64 < form.n ? first + 64 : form.n;
+  unsigned long long near = 0;
+  for (int k = first; k < end; k += 4) {
+    const V4 limit = all(distance) + load(form.reach + k);
+    const M4 mask = load(square + k) <= limit * limit;
+    near |= lanes(mask) << (k - first);
+  }
+  return near;
+}
+
+constexpr int max_lanes = 16;
 
 // Value, slope and half the second derivative.
 struct Jet {
@@ -183,26 +224,50 @@ SEM_INLINE Jet jet(const double* c, Degree degree, double t) {
   return at;
 }
 
-// Halley's method, cubic: after a step below 1e-6 the next is rounding.
+// Halley's method, cubic: after a step below 1e-6 the next is rounding, if it is also one of
+// Newton's (Halley's are short where the slope vanishes).
 template <class Degree>
 SEM_INLINE bool settle(const double* f, Degree degree, double& t, double& slope) {
   for (int iteration = 0; iteration < 12; ++iteration) {
     const Jet at = jet(f, degree, t);
-    const double step =
-        at.value * at.slope / (at.slope * at.slope - at.value * at.bend);
+    const double square = at.slope * at.slope;
+    const double step = at.value * at.slope / (square - at.value * at.bend);
     t -= step;
     if (!(t >= -1 && t <= 1)) return false;
-    if (step < 1e-6 && step > -1e-6) {
+    if (step * step < 1e-12) {
       slope = at.slope - 2 * step * at.bend;
-      return true;
+      return at.value * at.value < 4e-12 * square;
     }
   }
   return false;
 }
 
+Signs foot_signs(const FootForm& form, double x, double y, double rounding) {
+  Signs signs{0, 0};
+  const double* c = form.rows;
+  for (int i = 0; i < form.n_lanes; i += 4, c += 4) {
+    const V4 g = load(c) - all(x) * load(c + form.n_lanes) - all(y) * load(c + 2 * form.n_lanes);
+    signs.positive |= unsigned(lanes(g > all(rounding)) << i);
+    signs.negative |= unsigned(lanes(g < all(-rounding)) << i);
+  }
+  return signs;
+}
+
+bool foot_root(const FootForm& form, double x, double y, double& s) {
+  alignas(32) double g[max_lanes];
+  const double* c = form.rows + 3 * form.n_lanes;
+  for (int i = 0; i < form.n_lanes; i += 4, c += 4)
+    store(load(c) - all(x) * load(c + form.n_lanes) - all(y) * load(c + 2 * form.n_lanes), g + i);
+  double t = 2 * s - 1, slope;
+  const bool settled = form.degree == 8   ? settle(g, Constant<8>(), t, slope)   // rational cubics
+                       : form.degree == 5 ? settle(g, Constant<5>(), t, slope)   // cubics, quadratics
+                                          : settle(g, form.degree, t, slope);
+  s = 0.5 + 0.5 * t;
+  return settled;
+}
+
 bool cross_line(const LineForm& form, const KernelLine& line, int piece, double start,
                 LineCrossing& crossing) {
-  constexpr int max_lanes = 16;
   const double* origin = form.origin + 2 * piece;
   const double o_x = line.origin[0] - origin[0], o_y = line.origin[1] - origin[1];
   const V4 across = all(line.normal[0] * o_x + line.normal[1] * o_y);
@@ -234,6 +299,10 @@ const Kernels SEM_KERNELS = {
     {curve_slope<0>, curve_slope<1>, curve_slope<2>, curve_slope<3>},
     {surface_slopes<0>, surface_slopes<1>, surface_slopes<2>, surface_slopes<3>},
     near_line,
+    chord_squares,
+    near_chords,
+    foot_signs,
+    foot_root,
     cross_line};
 
 }  // namespace sem::detail

@@ -25,21 +25,6 @@ struct Tables {
 
 using Coefficients = Eigen::Matrix<double, 4, Eigen::Dynamic>;  // x, y, z, w
 
-// Row j: coefficients of t^j in the Bernstein polynomials of (1 + t) / 2.
-Eigen::MatrixXd powers_of_bernstein(int degree) {
-  Eigen::MatrixXd result(degree + 1, degree + 1);
-  for (int i = 0; i <= degree; ++i) {
-    Eigen::VectorXd polynomial = Eigen::VectorXd::Zero(degree + 1);
-    polynomial[0] = std::ldexp(binomials(degree)[i], -degree);
-    for (int factor = 0; factor < degree; ++factor) {  // times 1 + t (i of them) or 1 - t
-      const double sign = factor < i ? 1 : -1;
-      for (int j = degree; j > 0; --j) polynomial[j] += sign * polynomial[j - 1];
-    }
-    result.col(i) = polynomial;
-  }
-  return result;
-}
-
 // `stride`: from the coefficients of one span to those of the next.
 KernelAxis make_axis(const std::vector<Interval>& intervals, int degree, long stride,
                      std::vector<KernelSpan>& spans, std::vector<const KernelSpan*>& first) {
@@ -141,6 +126,20 @@ void make_line_form(const PreparedNurbs<ParamDim, Dim>&, const std::vector<Coeff
                     Tables<ParamDim>&) {}
 
 }  // namespace
+
+Eigen::MatrixXd powers_of_bernstein(int degree) {
+  Eigen::MatrixXd result(degree + 1, degree + 1);
+  for (int i = 0; i <= degree; ++i) {
+    Eigen::VectorXd polynomial = Eigen::VectorXd::Zero(degree + 1);
+    polynomial[0] = std::ldexp(binomials(degree)[i], -degree);
+    for (int factor = 0; factor < degree; ++factor) {  // times 1 + t (i of them) or 1 - t
+      const double sign = factor < i ? 1 : -1;
+      for (int j = degree; j > 0; --j) polynomial[j] += sign * polynomial[j - 1];
+    }
+    result.col(i) = polynomial;
+  }
+  return result;
+}
 
 template <int ParamDim, int Dim>
 std::shared_ptr<const PowerForm> make_power_form(const PreparedNurbs<ParamDim, Dim>& part) {

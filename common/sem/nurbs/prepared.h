@@ -9,6 +9,10 @@
 
 namespace sem {
 
+namespace detail {
+struct FootCells;
+}
+
 /// One rational Bezier piece over a box of the parameters, with control
 /// points as positions (not multiplied by the weights), so that the sign of
 /// a coordinate difference is exact.
@@ -19,10 +23,6 @@ struct BezierPiece {
   Points<Dim> points;       ///< Dim by prod (degree + 1), u fastest
   Eigen::VectorXd weights;  ///< > 0
   Box<Dim> box;             ///< holds the piece: weights > 0, so the convex hull does
-  /// Curves: Bernstein coefficients foot(k, 0..Dim) of a polynomial that has
-  /// the sign of (C(s) - X).C'(s), foot(k, 0) - foot(k, 1..Dim).(X - box
-  /// centre) for any X; closest points are among its roots.
-  Eigen::Matrix<double, Dim + 1, Eigen::Dynamic> foot;
 };
 
 /// A NURBS and its Bezier pieces.
@@ -33,6 +33,7 @@ struct PreparedNurbs {
   std::vector<BezierPiece<ParamDim, Dim>> pieces;     ///< one per span (box), u fastest
   Box<Dim> box;                                       ///< of all pieces
   std::shared_ptr<const detail::PowerForm> power;     ///< for the kernels; null: too inaccurate
+  std::shared_ptr<const detail::FootCells> feet;      ///< for closest points; curves in the plane
 };
 
 /// Cuts a NURBS into Bezier pieces. Neighbouring pieces share control points
