@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "sem/nurbs/kernels.h"
 #include "sem/nurbs/prepared.h"
 
 namespace sem::detail {

@@ -4,48 +4,9 @@
 // chosen when the program starts. Plain data only, so that no inline function
 // of another header is compiled with these instructions and used elsewhere.
 
+#include "sem/nurbs/kernel_forms.h"
+
 namespace sem::detail {
-
-/// A knot span [start of it, end): local coordinate t = (u - centre) * inverse_half in [-1, 1].
-struct KernelSpan {
-  double end;  ///< infinity for the last one
-  double centre, inverse_half;
-  long offset;  ///< what it adds to the place of a piece's coefficients
-};
-
-/// Finds the span of a parameter: that of its bucket, then onwards. Buckets of equal width cover
-/// the domain; for uniform knots they are the spans.
-struct KernelAxis {
-  double lower, upper;  ///< domain
-  double buckets_per_unit;
-  const KernelSpan* const* first;  ///< per bucket
-  int degree;
-};
-
-/// What hits of plane curves need, per piece: n_lanes (degree + 1 rounded up to a multiple of 4)
-/// values each of the control points' x and y (the last repeated), and of the power coefficients
-/// of (x - origin_x) w, (y - origin_y) w and w (zeros appended).
-struct LineForm {
-  const double *x, *y;
-  const double *power_x, *power_y, *power_w, *origin;
-  int n_pieces, degree, n_lanes;
-};
-
-struct PowerForm;
-using PointKernel = void (*)(const PowerForm&, const double* u, double* point);
-using SlopeKernel = void (*)(const PowerForm&, const double* u, double* point, double* slopes);
-
-/// Homogeneous coordinates of every piece as polynomials in the local coordinates:
-/// (C - origin) w and w = sum_ij c_ij t_u^i t_v^j, i fastest. Entries are (x, y, z, w), z = 0 in
-/// the plane; 4 doubles of the origin come first, then the c_ij. What the kernels write has 4
-/// doubles a vector, the last without meaning, and is aligned to 32 bytes.
-struct PowerForm {
-  KernelAxis axis[2];  ///< curves: one
-  const double* coefficient;
-  PointKernel point;
-  SlopeKernel slopes;
-  LineForm line;  ///< curves in the plane
-};
 
 /// A line: zeros of normal.(X - origin); places along it direction.(X - origin).
 struct KernelLine {
@@ -82,6 +43,16 @@ struct Signs {
 struct Kernels {
   PointKernel curve_point[4], surface_point[4];
   SlopeKernel curve_slope[4], surface_slopes[4];
+  /// Value and derivatives s, t (6: also ss, st, tt) of a piece's homogeneous coordinates, 4 doubles
+  /// each, at local coordinates; `piece` is where its coefficients are.
+  void (*surface_jets)(const PowerForm&, const double* piece, const double* local, double* jets);
+  void (*surface_second_jets)(const PowerForm&, const double* piece, const double* local,
+                              double* jets);
+  /// Bernstein coefficients, times their binomials, of x^2 + y^2 + z^2 and of w^2 from those of
+  /// (x, y, z, w) of degrees p, q, which `scaled` holds times their binomials: (2 p + 1)(2 q + 1)
+  /// each. Returns the least quotient of the two and where it is.
+  double (*square_distance)(const double* scaled, int p, int q, double* square, double* weight,
+                            int* where);
   /// Bit k: the control points of piece first + k are not all farther than the tolerance on one
   /// side of the line. At most 64 pieces.
   unsigned long long (*near_line)(const LineForm&, const KernelLine&, double tolerance, int first);

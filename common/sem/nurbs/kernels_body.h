@@ -149,6 +149,81 @@ void surface_slopes(const PowerForm& form, const double* u, double* point, doubl
   store((A.dv - X * all(A.dv[3])) * all(inverse * span_v->inverse_half), slopes + 4);
 }
 
+void surface_jets(const PowerForm& form, const double* piece, const double* local, double* jets) {
+  const int p = form.axis[0].degree, q = form.axis[1].degree;
+  const V4 s = all(local[0]), t = all(local[1]);
+  const Slopes at = p == 3 && q == 3 ? tensor_slopes(piece + 4, 3, 3, s, t)
+                                     : tensor_slopes(piece + 4, p, q, s, t);
+  store(at.value, jets);
+  store(at.du, jets + 4);
+  store(at.dv, jets + 8);
+}
+
+SEM_INLINE void tensor_second(const double* c, int p, int q, V4 s, V4 t, V4* at) {
+  for (int j = q; j >= 0; --j) {
+    const double* row = c + 4 * j * (p + 1);
+    V4 value = load(row + 4 * p), slope = all(0), bend = slope;  // bend: half the second derivative
+    for (int i = p - 1; i >= 0; --i) {
+      bend = bend * s + slope;
+      slope = slope * s + value;
+      value = value * s + load(row + 4 * i);
+    }
+    at[5] = at[5] * t + at[2];
+    at[4] = at[4] * t + at[1];
+    at[2] = at[2] * t + at[0];
+    at[0] = at[0] * t + value;
+    at[1] = at[1] * t + slope;
+    at[3] = at[3] * t + bend;
+  }
+}
+
+void surface_second_jets(const PowerForm& form, const double* piece, const double* local,
+                         double* jets) {
+  const int p = form.axis[0].degree, q = form.axis[1].degree;
+  V4 at[6] = {};
+  if (p == 3 && q == 3)
+    tensor_second(piece + 4, 3, 3, all(local[0]), all(local[1]), at);
+  else
+    tensor_second(piece + 4, p, q, all(local[0]), all(local[1]), at);
+  at[3] *= all(2);
+  at[5] *= all(2);
+  for (int m = 0; m < 6; ++m) store(at[m], jets + 4 * m);
+}
+
+SEM_INLINE double square_terms(const double* scaled, int p, int q, double* square, double* weight,
+                               int* where, V4* sum) {
+  const int row = 2 * p + 1, n_sums = row * (2 * q + 1);
+  for (int i = 0; i < n_sums; ++i) sum[i] = all(0);
+  for (int j = 0, a = 0; j <= q; ++j)
+    for (int i = 0; i <= p; ++i, ++a) {
+      const V4 c = load(scaled + 4 * a), twice = c + c;
+      sum[2 * (j * row + i)] += c * c;
+      for (int k = i + 1; k <= p; ++k)
+        sum[2 * j * row + i + k] += twice * load(scaled + 4 * (a + k - i));
+      for (int l = j + 1; l <= q; ++l)
+        for (int k = 0; k <= p; ++k)
+          sum[(j + l) * row + i + k] += twice * load(scaled + 4 * (l * (p + 1) + k));
+    }
+  double least = 1e308;
+  for (int i = 0; i < n_sums; ++i) {
+    square[i] = sum[i][0] + sum[i][1] + sum[i][2];
+    weight[i] = sum[i][3];
+    if (square[i] < least * weight[i]) {
+      least = square[i] / weight[i];
+      *where = i;
+    }
+  }
+  return least;
+}
+
+double square_distance(const double* scaled, int p, int q, double* square, double* weight,
+                       int* where) {
+  *where = 0;
+  V4 sum[25 * 25];
+  return p == 3 && q == 3 ? square_terms(scaled, 3, 3, square, weight, where, sum)
+                          : square_terms(scaled, p, q, square, weight, where, sum);
+}
+
 unsigned long long near_line(const LineForm& form, const KernelLine& line, double tolerance,
                              int first) {
   const V4 n_x = all(line.normal[0]), n_y = all(line.normal[1]);
@@ -298,6 +373,9 @@ const Kernels SEM_KERNELS = {
     {surface_point<0>, surface_point<1>, surface_point<2>, surface_point<3>},
     {curve_slope<0>, curve_slope<1>, curve_slope<2>, curve_slope<3>},
     {surface_slopes<0>, surface_slopes<1>, surface_slopes<2>, surface_slopes<3>},
+    surface_jets,
+    surface_second_jets,
+    square_distance,
     near_line,
     chord_squares,
     near_chords,

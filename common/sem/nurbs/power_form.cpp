@@ -167,7 +167,7 @@ std::shared_ptr<const PowerForm> make_power_form(const PreparedNurbs<ParamDim, D
     }
   }
   PowerForm& form = tables->form;
-  long stride = 4 * (n + 1);
+  long stride = form.stride = 4 * (n + 1);
   for (int a = 0; a < ParamDim; ++a) {
     form.axis[a] =
         make_axis(part.spans[a], degrees[a], stride, tables->spans[a], tables->first[a]);

@@ -2,6 +2,7 @@
 // Internal: a prepared NURBS laid out for the kernels.
 
 
+#include "sem/nurbs/kernels.h"
 #include "sem/nurbs/prepared.h"
 
 namespace sem::detail {

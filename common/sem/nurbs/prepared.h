@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "sem/nurbs/basis.h"
-#include "sem/nurbs/kernels.h"
+#include "sem/nurbs/kernel_forms.h"
 
 namespace sem {
 
