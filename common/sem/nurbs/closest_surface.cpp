@@ -54,6 +54,8 @@ class SurfaceClosest {
     std::sort(order.begin(), order.end());
     for (const auto& [bound, k] : order)
       if (!hopeless(bound)) search(part_.pieces[k]);
+    for (int step = 0; step < 3 && polish(); ++step) {
+    }
     return best_;
   }
 
@@ -330,11 +332,38 @@ class SurfaceClosest {
       at.s = next;
       at.jet = there;
       differentiate();
-      // Newton squares the error: after such a step the next is rounding.
-      if (moved < (convex && length == 1 ? 1e-9 : 1e-15)) break;
+      // Newton squares the error, and the distance's is its square again; see polish().
+      if (moved < (convex && length == 1 ? 1e-5 : 1e-15)) break;
     }
     offer(at.s, at.jet.offset);
     return at;
+  }
+
+  // One of Newton's steps at the best point: distances cannot tell the foot better than to the
+  // square root of their rounding. False if there is nothing to gain.
+  bool polish() {
+    if (!best_piece_) return false;
+    piece_ = best_piece_;
+    const Jet jet = evaluate(best_s_);
+    const Vec<2> gradient = jet.first.transpose() * jet.offset;
+    Mat<2> hessian = jet.first.transpose() * jet.first;
+    hessian(0, 0) += jet.offset.dot(jet.second[0]);
+    hessian(1, 1) += jet.offset.dot(jet.second[2]);
+    hessian(0, 1) = hessian(1, 0) += jet.offset.dot(jet.second[1]);
+    bool fixed[2];
+    for (int a = 0; a < 2; ++a)
+      fixed[a] = (best_s_[a] == 0 && gradient[a] >= 0) || (best_s_[a] == 1 && gradient[a] <= 0);
+    if (!(fixed[0] || hessian(0, 0) > 0) || !(fixed[1] || hessian(1, 1) > 0) ||
+        !(fixed[0] || fixed[1] || hessian.determinant() > 0))
+      return false;
+    const Vec<2> step = solve(hessian, gradient, fixed);
+    const double length = step.cwiseAbs().maxCoeff();
+    if (!(length > 1e-16 && length < 1e-4)) return false;
+    const Vec<2> next = (best_s_ - step).cwiseMax(0.0).cwiseMin(1.0);
+    const Vec<3> offset = evaluate(next).offset;
+    if (!(offset.norm() <= best_.distance + 1e-15 * (best_.distance + size_))) return false;
+    set_best(next, offset);
+    return length > 1e-9;
   }
 
   static Vec<2> solve(const Mat<2>& A, const Vec<2>& b, const bool* fixed) {
@@ -347,7 +376,14 @@ class SurfaceClosest {
   void offer(const Vec<2>& s, const Vec<3>& offset) {
     const double distance = offset.norm();
     if (!(distance <= least_) || distance == best_.distance) return;
-    least_ = best_.distance = distance;
+    least_ = distance;
+    set_best(s, offset);
+  }
+
+  void set_best(const Vec<2>& s, const Vec<3>& offset) {
+    best_piece_ = piece_;
+    best_s_ = s;
+    best_.distance = offset.norm();
     best_.point = X_ + offset;
     for (int a = 0; a < 2; ++a)
       best_.u[a] = s[a] == 1 ? piece_->upper[a]
@@ -359,7 +395,8 @@ class SurfaceClosest {
   Scratch& scratch_;
   double least_, size_;
   ClosestPoint<3> best_;
-  const BezierPiece<2, 3>* piece_ = nullptr;
+  const BezierPiece<2, 3>*piece_ = nullptr, *best_piece_ = nullptr;
+  Vec<2> best_s_;
   int n_ = 0;
 };
 

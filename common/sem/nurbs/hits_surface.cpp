@@ -142,9 +142,12 @@ class SurfaceHits {
     return jet;
   }
 
-  // f, g and their derivatives at s of a patch by the powers of the whole piece.
-  Jet evaluate_powers(const Vec<2>& lower, const Vec<2>& size, const Vec<2>& s) const {
+  // f, g and their derivatives at s of a patch, by the powers of the whole piece if there are any.
+  Jet evaluate_patch(const Patch& patch, const Vec<2>* c, const Vec<2>& s) const {
+    if (!part_.power) return evaluate(c, s);
     const detail::PowerForm& power = *part_.power;
+    const Vec<2> lower(patch.lower[0], patch.lower[1]);
+    const Vec<2> size = Vec<2>(patch.upper[0], patch.upper[1]) - lower;
     const double* coefficients = power.coefficient + (piece_ - part_.pieces.data()) * power.stride;
     const Vec<2> local = 2 * (lower + s.cwiseProduct(size)) - Vec<2>::Ones();
     alignas(32) double jets[12];
@@ -161,7 +164,7 @@ class SurfaceHits {
   bool finish(const Patch& patch, const Vec<2>* c) {
     ++n_patches_;
     if (excluded(c, 1, 0) || excluded(c, 0, 1)) return true;
-    const Mat<2> J = evaluate(c, {0.5, 0.5}).jacobian;
+    const Mat<2> J = evaluate_patch(patch, c, {0.5, 0.5}).jacobian;
     const double determinant = J.determinant();
     if (std::abs(determinant) > 1e-9 * J.squaredNorm()) {
       Mat<2> inverse;
@@ -202,10 +205,8 @@ class SurfaceHits {
   // Newton on a patch with at most one root; false if that settles nothing.
   bool add_simple(const Patch& patch, const Vec<2>* c) {
     Vec<2> s(0.5, 0.5);
-    const Vec<2> lower(patch.lower[0], patch.lower[1]);
-    const Vec<2> size = Vec<2>(patch.upper[0], patch.upper[1]) - lower;
     for (int iteration = 0; iteration < 30; ++iteration) {
-      const Jet jet = part_.power ? evaluate_powers(lower, size, s) : evaluate(c, s);
+      const Jet jet = evaluate_patch(patch, c, s);
       const Vec<2> step = jet.jacobian.inverse() * jet.value;
       s -= step;
       if (!(s.cwiseAbs().maxCoeff() < 4)) return false;

@@ -3,10 +3,10 @@
 
 namespace sem::detail {
 
-/// A knot span [start of it, end): local coordinate t = (u - centre) * inverse_half in [-1, 1].
+/// A knot span [start, end): local coordinate t = (u - start) * inverse_half - 1 in [-1, 1].
 struct KernelSpan {
   double end;  ///< infinity for the last one
-  double centre, inverse_half;
+  double start, inverse_half;
   long offset;  ///< what it adds to the place of a piece's coefficients
 };
 

@@ -38,7 +38,7 @@ SEM_INLINE const KernelSpan* locate(const KernelAxis& axis, double u, double& t)
     u = u < axis.lower ? axis.lower : u > axis.upper ? axis.upper : u;
   }
   while (u >= span->end) ++span;
-  t = (u - span->centre) * span->inverse_half;
+  t = (u - span->start) * span->inverse_half - 1;
   return span;
 }
 

@@ -9,7 +9,7 @@ namespace sem::detail {
 namespace {
 
 constexpr int max_power_degree = 12;
-constexpr double largest_growth = 64;
+constexpr double largest_growth = 32;
 
 // What the form points into: owned once, by all copies of a prepared NURBS, and never changed.
 template <int ParamDim>
@@ -32,7 +32,7 @@ KernelAxis make_axis(const std::vector<Interval>& intervals, int degree, long st
   double least = intervals[0].upper - intervals[0].lower;
   for (const auto& [lower, upper] : intervals) {
     least = std::min(least, upper - lower);
-    spans.push_back({upper, 0.5 * (lower + upper), 2 / (upper - lower), long(spans.size()) * stride});
+    spans.push_back({upper, lower, 2 / (upper - lower), long(spans.size()) * stride});
   }
   spans.back().end = std::numeric_limits<double>::infinity();
   const double lower = intervals.front().lower, upper = intervals.back().upper;

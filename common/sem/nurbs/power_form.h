@@ -11,7 +11,7 @@ namespace sem::detail {
 Eigen::MatrixXd powers_of_bernstein(int degree);
 
 /// Null if powers lose too many digits: above degree 12, or where the terms' magnitudes add up to
-/// more than 64 times their sum (high degrees, weights of very different size in one piece).
+/// more than 32 times their sum (high degrees, weights of very different size in one piece).
 template <int ParamDim, int Dim>
 std::shared_ptr<const PowerForm> make_power_form(const PreparedNurbs<ParamDim, Dim>& part);
 
