@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "sem/nurbs/closest.h"
+#include "sem/nurbs/hits.h"
 #include "sem/nurbs/kernels.h"
 #include "sem/nurbs/power_form.h"
 #include "shapes.h"
@@ -126,4 +127,81 @@ TEST_CASE("the offset to a foot inside a piece is normal there to rounding, not 
     check(surface, Vec<3>(uniform(random, -2, 2), uniform(random, -2, 2), uniform(random, -2, 2)));
   }
   CHECK(n_inside > 100);
+}
+
+TEST_CASE("closest points of curves with weights from 0.1 to 10 and cusps: none farther than samples") {
+  with_all_kernels([] {
+    std::mt19937 random(74);
+    for (int trial = 0; trial < 1500; ++trial) {
+      auto curve = uneven_nurbs<1, 2>(random, 1 + trial % 6, random() % 5 == 0);
+      const int n = n_control(curve, 0);
+      if (trial % 3 == 0) curve.control_points.col(1) = curve.control_points.col(0);
+      if (trial % 4 == 0 && n >= 4) {  // crossed control points
+        const Vec<2> a = curve.control_points.col(n - 3);
+        curve.control_points.col(n - 3) = curve.control_points.col(n - 2);
+        curve.control_points.col(n - 2) = a;
+      }
+      const auto part = prepare(curve);
+      Vec<2> X(uniform(random, -1.5, 1.5), uniform(random, -1.5, 1.5));
+      if (trial % 5 == 0) X = point(curve, random_parameter(random, curve));
+      if (trial % 7 == 0) X = part.pieces.back().points.rightCols<1>();
+      const double found = closest_point<2>(part, X).distance;
+      const auto [lower, upper] = domain(curve, 0);
+      double least = std::numeric_limits<double>::infinity();
+      for (int k = 0; k <= 1000; ++k)
+        least = std::min(least, (point(curve, Param<1>(lower + (upper - lower) * k / 1000)) - X).norm());
+      CHECK(found <= least + 1e-13);
+      if (trial % 5 == 0 || trial % 7 == 0) CHECK(found <= 1e-13);
+    }
+  });
+}
+
+TEST_CASE("a line through a point of a curve hits it there, also as a tangent and at an end") {
+  with_all_kernels([] {
+    std::mt19937 random(75);
+    std::vector<Hit<2>> hits;
+    for (int trial = 0; trial < 4000; ++trial) {
+      const auto curve = uneven_nurbs<1, 2>(random, 1 + trial % 6, false);
+      const auto part = prepare(curve);
+      auto u = random_parameter(random, curve);
+      if (trial % 5 == 0) u[0] = part.spans[0][random() % part.spans[0].size()].lower;
+      const auto at = derivatives(curve, u, 1);
+      const bool tangent = trial % 4 == 0 && curve.degree[0] > 1;  // degree 1: all along the line
+      const double angle = uniform(random, 0, 7);
+      const Vec<2> d = tangent ? Vec<2>(at.first) : Vec<2>(std::cos(angle), std::sin(angle));
+      hits.clear();
+      append_hits<2>(part, {at.point, d}, -1e9, 1e9, hits);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto& hit : hits) {
+        nearest = std::min(nearest, std::abs(hit.t) * d.norm());
+        const auto there = derivatives(curve, hit.u, 1);
+        CHECK((at.point + hit.t * d - there.point).norm() <= 1e-13 + 4e-16 * there.first.norm() * (1 + std::abs(hit.u[0])));
+      }
+      const double sine = std::abs(at.first[0] * d[1] - at.first[1] * d[0]) / (at.first.norm() * d.norm());
+      CHECK(nearest <= (sine > 1e-3 ? 1e-10 : 1e-3));
+    }
+  });
+}
+
+TEST_CASE("surfaces with weights from 0.1 to 10: no hit missed, no closest point farther than samples") {
+  with_all_kernels([] {
+    std::mt19937 random(76);
+    std::vector<Hit<3>> hits;
+    for (int trial = 0; trial < 150; ++trial) {
+      const auto surface = uneven_nurbs<2, 3>(random, 1 + trial % 3, false);
+      const auto part = prepare(surface);
+      const Vec<3> X = point(surface, random_parameter(random, surface));
+      const Vec<3> d(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+      hits.clear();
+      append_hits<3>(part, {X, d}, -1e9, 1e9, hits);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto& hit : hits) nearest = std::min(nearest, std::abs(hit.t) * d.norm());
+      CHECK(nearest <= 1e-9);
+      const double found = closest_point<3>(part, Vec<3>(X + d)).distance;
+      double least = d.norm();
+      for (int k = 0; k < 900; ++k)
+        least = std::min(least, (point(surface, random_parameter(random, surface)) - X - d).norm());
+      CHECK(found <= least + 1e-13);
+    }
+  });
 }
