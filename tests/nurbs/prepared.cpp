@@ -52,14 +52,16 @@ void compare(std::mt19937& random, int degree, double& point_error, double& slop
     point_error = std::max(point_error, (at.point - direct.point).norm() / size);
     CHECK((at.point - point(part, u)).norm() <= 1e-14 * size);
     double steepest = std::max(size, direct.first.norm());
-    for (const auto& span : part.spans[0]) steepest = std::max(steepest, size / (span.upper - span.lower));
+    for (const auto& span : part.spans[0])
+      steepest = std::max(steepest, size / (span.upper - span.lower));
     slope_error = std::max(slope_error, (at.first - direct.first).norm() / steepest);
   }
 }
 
 }  // namespace
 
-TEST_CASE("prepared evaluation agrees with direct evaluation to 1e-14 of the size, up to degree 5") {
+TEST_CASE(
+    "prepared evaluation agrees with direct evaluation to 1e-14 of the size, up to degree 5") {
   with_all_kernels([] {
     std::mt19937 random(71);
     double curve = 0, surface = 0, space = 0, slope = 0;
@@ -73,7 +75,7 @@ TEST_CASE("prepared evaluation agrees with direct evaluation to 1e-14 of the siz
     CHECK(space < 1e-14);
     CHECK(surface < 1e-14);
     CHECK(slope < 1e-12);
-    CHECK(n_power > 600);  // of 1350: the kernels are used
+    CHECK(n_power > 600);   // of 1350: the kernels are used
     CHECK(n_power < 1350);  // and not where weights are too uneven for powers
   });
 }
@@ -129,7 +131,8 @@ TEST_CASE("the offset to a foot inside a piece is normal there to rounding, not 
   CHECK(n_inside > 100);
 }
 
-TEST_CASE("closest points of curves with weights from 0.1 to 10 and cusps: none farther than samples") {
+TEST_CASE(
+    "closest points of curves with weights from 0.1 to 10 and cusps: none farther than samples") {
   with_all_kernels([] {
     std::mt19937 random(74);
     for (int trial = 0; trial < 1500; ++trial) {
@@ -149,7 +152,8 @@ TEST_CASE("closest points of curves with weights from 0.1 to 10 and cusps: none 
       const auto [lower, upper] = domain(curve, 0);
       double least = std::numeric_limits<double>::infinity();
       for (int k = 0; k <= 1000; ++k)
-        least = std::min(least, (point(curve, Param<1>(lower + (upper - lower) * k / 1000)) - X).norm());
+        least = std::min(least,
+                         (point(curve, Param<1>(lower + (upper - lower) * k / 1000)) - X).norm());
       CHECK(found <= least + 1e-13);
       if (trial % 5 == 0 || trial % 7 == 0) CHECK(found <= 1e-13);
     }
@@ -175,15 +179,18 @@ TEST_CASE("a line through a point of a curve hits it there, also as a tangent an
       for (const auto& hit : hits) {
         nearest = std::min(nearest, std::abs(hit.t) * d.norm());
         const auto there = derivatives(curve, hit.u, 1);
-        CHECK((at.point + hit.t * d - there.point).norm() <= 1e-13 + 4e-16 * there.first.norm() * (1 + std::abs(hit.u[0])));
+        CHECK((at.point + hit.t * d - there.point).norm() <=
+              1e-13 + 4e-16 * there.first.norm() * (1 + std::abs(hit.u[0])));
       }
-      const double sine = std::abs(at.first[0] * d[1] - at.first[1] * d[0]) / (at.first.norm() * d.norm());
+      const double sine =
+          std::abs(at.first[0] * d[1] - at.first[1] * d[0]) / (at.first.norm() * d.norm());
       CHECK(nearest <= (sine > 1e-3 ? 1e-10 : 1e-3));
     }
   });
 }
 
-TEST_CASE("surfaces with weights from 0.1 to 10: no hit missed, no closest point farther than samples") {
+TEST_CASE(
+    "surfaces with weights from 0.1 to 10: no hit missed, no closest point farther than samples") {
   with_all_kernels([] {
     std::mt19937 random(76);
     std::vector<Hit<3>> hits;

@@ -47,8 +47,8 @@ class CurveClosest {
     const int promising = std::min(nearest, int(feet_.cells.size()) - 1);
     if (near(promising, square)) search(feet_.cells[promising]);
     for (int first = 0; first < chords.n; first += 64)
-      for (auto bits = detail::kernels->near_chords(chords, square, least_ + tie_, first); bits != 0;
-           bits &= bits - 1) {
+      for (auto bits = detail::kernels->near_chords(chords, square, least_ + tie_, first);
+           bits != 0; bits &= bits - 1) {
         const int k = first + __builtin_ctzll(bits);
         if (k != promising && k < int(feet_.cells.size()) && near(k, square))
           search(feet_.cells[k]);
@@ -104,8 +104,7 @@ class CurveClosest {
   // The usual case: the coefficients change from - to + once, or never. Otherwise false.
   bool search_simple(const detail::FootCell& cell, const Vec<2>& R, double rounding) {
     const BezierPiece<1, 2>& piece = part_.pieces[cell.piece];
-    const auto [positive, negative] =
-        detail::kernels->foot_signs(cell.form, R[0], R[1], rounding);
+    const auto [positive, negative] = detail::kernels->foot_signs(cell.form, R[0], R[1], rounding);
     const unsigned last = 1u << cell.form.degree;
     const bool falls = positive == 0 && negative != 0, rises = negative == 0 && positive != 0;
     // Both ends off zero: no second root there.
@@ -137,7 +136,8 @@ class CurveClosest {
       return true;
     }
     if (n_changes == 0 || (n_changes == 1 && first_sign > 0)) {
-      // A minimum where the stretch was split off its neighbour: - here and + there, or the reverse.
+      // A minimum where the stretch was split off its neighbour: - here and + there, or the
+      // reverse.
       if (first_sign > 0 && std::abs(x.g[0]) <= rounding) add(piece, x.a);
       if (sign < 0 && std::abs(x.g[degree]) <= rounding) add(piece, x.b);
       return true;

@@ -80,8 +80,13 @@ struct Builder {
       add(piece, middle, b, halves[0][1], halves[1][1], halvings + 1);
       return;
     }
-    result.cells.push_back({piece, a, b, foot, foot.row(0).cwiseAbs().maxCoeff(),
-                            foot.bottomRows<2>().cwiseAbs().colwise().sum().maxCoeff(), {}});
+    result.cells.push_back({piece,
+                            a,
+                            b,
+                            foot,
+                            foot.row(0).cwiseAbs().maxCoeff(),
+                            foot.bottomRows<2>().cwiseAbs().colwise().sum().maxCoeff(),
+                            {}});
     const auto start = homogeneous.col(0), end = homogeneous.rightCols<1>();
     const Vec<2> centre = 0.5 * (part.pieces[piece].box.lower + part.pieces[piece].box.upper);
     const Vec<2> from = start.head<2>() / start[2], step = Vec<2>(end.topRows<2>() / end(2)) - from;

@@ -30,7 +30,8 @@ struct FootCells {
   std::vector<Lanes> chord_storage, form_storage;
 };
 
-/// Halves the pieces until each cell is within 1e-3 of the part's size of its chord, at most thrice.
+/// Halves the pieces until each cell is within 1e-3 of the part's size of its chord, at most
+/// thrice.
 std::shared_ptr<const FootCells> make_foot_cells(const PreparedNurbs<1, 2>& part);
 
 }  // namespace sem::detail

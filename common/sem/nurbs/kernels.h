@@ -43,8 +43,8 @@ struct Signs {
 struct Kernels {
   PointKernel curve_point[4], surface_point[4];
   SlopeKernel curve_slope[4], surface_slopes[4];
-  /// Value and derivatives s, t (6: also ss, st, tt) of a piece's homogeneous coordinates, 4 doubles
-  /// each, at local coordinates; `piece` is where its coefficients are.
+  /// Value and derivatives s, t (6: also ss, st, tt) of a piece's homogeneous coordinates, 4
+  /// doubles each, at local coordinates; `piece` is where its coefficients are.
   void (*surface_jets)(const PowerForm&, const double* piece, const double* local, double* jets);
   void (*surface_second_jets)(const PowerForm&, const double* piece, const double* local,
                               double* jets);

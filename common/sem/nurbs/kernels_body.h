@@ -7,7 +7,7 @@ namespace {
 
 #define SEM_INLINE inline __attribute__((always_inline))
 
-typedef double V4 __attribute__((vector_size(32), aligned(32)));
+typedef double V4 __attribute__((vector_size(32), aligned(32), may_alias));
 typedef long long M4 __attribute__((vector_size(32)));
 
 SEM_INLINE V4 load(const double* x) { return *reinterpret_cast<const V4*>(x); }
@@ -23,9 +23,7 @@ SEM_INLINE unsigned long long lanes(M4 mask) {
 #endif
 }
 
-SEM_INLINE double least_lane(V4 x) {
-  return smaller(smaller(x[0], x[1]), smaller(x[2], x[3]));
-}
+SEM_INLINE double least_lane(V4 x) { return smaller(smaller(x[0], x[1]), smaller(x[2], x[3])); }
 
 // The span that holds u and the local coordinate there; u outside is moved to the end of the
 // domain, NaN gives NaN.
@@ -50,10 +48,14 @@ struct Constant {
 template <class F>
 SEM_INLINE void with_degree(int degree, const F& f) {
   switch (degree) {
-    case 1: return f(Constant<1>());
-    case 2: return f(Constant<2>());
-    case 3: return f(Constant<3>());
-    default: return f(degree);
+    case 1:
+      return f(Constant<1>());
+    case 2:
+      return f(Constant<2>());
+    case 3:
+      return f(Constant<3>());
+    default:
+      return f(degree);
   }
 }
 
@@ -115,7 +117,8 @@ void surface_point(const PowerForm& form, const double* u, double* point) {
   double s, t;
   const long offset = locate(form.axis[0], u[0], s)->offset + locate(form.axis[1], u[1], t)->offset;
   const double* c = form.coefficient + offset;
-  const V4 A = tensor(c + 4, degree_of<N>(form.axis[0]), degree_of<N>(form.axis[1]), all(s), all(t));
+  const V4 A =
+      tensor(c + 4, degree_of<N>(form.axis[0]), degree_of<N>(form.axis[1]), all(s), all(t));
   store(load(c) + A * all(1 / A[3]), point);
 }
 
@@ -334,9 +337,10 @@ bool foot_root(const FootForm& form, double x, double y, double& s) {
   for (int i = 0; i < form.n_lanes; i += 4, c += 4)
     store(load(c) - all(x) * load(c + form.n_lanes) - all(y) * load(c + 2 * form.n_lanes), g + i);
   double t = 2 * s - 1, slope;
-  const bool settled = form.degree == 8   ? settle(g, Constant<8>(), t, slope)   // rational cubics
-                       : form.degree == 5 ? settle(g, Constant<5>(), t, slope)   // cubics, quadratics
-                                          : settle(g, form.degree, t, slope);
+  const bool settled = form.degree == 8 ? settle(g, Constant<8>(), t, slope)  // rational cubics
+                       : form.degree == 5
+                           ? settle(g, Constant<5>(), t, slope)  // cubics, quadratics
+                           : settle(g, form.degree, t, slope);
   s = 0.5 + 0.5 * t;
   return settled;
 }
@@ -356,12 +360,13 @@ bool cross_line(const LineForm& form, const KernelLine& line, int piece, double 
     store(all(line.direction[0]) * x + all(line.direction[1]) * y - along * load(w + i), g + i);
   }
   bool settled = false;
-  with_degree(form.degree, [&](auto degree) __attribute__((always_inline)) {
-    double t = start, slope = 0;
-    settled = settle(f, degree, t, slope);
-    const Jet G = jet(g, degree, t), W = jet(w, degree, t);
-    crossing = {t, G.value / W.value, slope * W.value, G.slope * W.value - G.value * W.slope};
-  });
+  with_degree(
+      form.degree, [&](auto degree) __attribute__((always_inline)) {
+        double t = start, slope = 0;
+        settled = settle(f, degree, t, slope);
+        const Jet G = jet(g, degree, t), W = jet(w, degree, t);
+        crossing = {t, G.value / W.value, slope * W.value, G.slope * W.value - G.value * W.slope};
+      });
   return settled;
 }
 

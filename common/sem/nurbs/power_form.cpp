@@ -169,8 +169,7 @@ std::shared_ptr<const PowerForm> make_power_form(const PreparedNurbs<ParamDim, D
   PowerForm& form = tables->form;
   long stride = form.stride = 4 * (n + 1);
   for (int a = 0; a < ParamDim; ++a) {
-    form.axis[a] =
-        make_axis(part.spans[a], degrees[a], stride, tables->spans[a], tables->first[a]);
+    form.axis[a] = make_axis(part.spans[a], degrees[a], stride, tables->spans[a], tables->first[a]);
     stride *= long(part.spans[a].size());
   }
   form.coefficient = tables->power[0].value;
