@@ -1,0 +1,7 @@
+#include "stability/case.h"
+
+namespace sem::stability {
+
+std::vector<Case> kinematics_cases() { return {}; }
+
+}  // namespace sem::stability
