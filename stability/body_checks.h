@@ -15,7 +15,9 @@ std::string variant(Formulation formulation);
 
 /// Relative bounds.
 struct Bounds {
-  double volume = 1e-8;    ///< of the interior rule against the closed form
+  double volume = 0;       ///< of the interior rule against the closed form, beside what the rule promises:
+                           ///< ten times the tolerance of rays between critical values, a tenth of the
+                           ///< tolerance (on weights) of a resolved rule
   double identity = 1e-8;  ///< |x(X) - X| / size, |F - I| of the undeformed map
   double energy = 1e-8;    ///< of an affine field against Psi(F) times the volume
   double fall = 1e-8;      ///< of a step's way against g dt^2 n (n + 1) / 2
@@ -24,7 +26,7 @@ struct Bounds {
 
 /// The scene of a body: St. Venant-Kirchhoff, E = 1e5 Pa, nu = 0.3, density 1000 kg/m^3; lengths scale with
 /// the body's size. Projected: the published weights with a cutoff of the size, rays between critical
-/// values; condensed: sided weights, resolved rule. Parts are named "part.1", ...
+/// values; condensed: sided weights, in 2D the resolved rule. Parts are named "part.1", ...
 template <int Dim>
 Scene<Dim> scene_of(const Body<Dim>& body, Formulation formulation);
 
