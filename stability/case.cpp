@@ -6,10 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <map>
+#include <stdexcept>
 
 #include "sem/base/error.h"
 
@@ -49,11 +52,53 @@ Result run_here(const Case& one) try {
   _exit(written ? 0 : 1);
 }
 
-std::string read_all(int pipe) {
+// A child at work.
+struct Running {
+  size_t index;
+  pid_t process;
+  int pipe;
   std::string text;
+  std::chrono::steady_clock::time_point start;
+};
+
+Running start(const std::vector<Case>& cases, size_t index, double seconds) {
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+  std::fflush(nullptr);
+  const pid_t process = fork();
+  if (process < 0) throw std::runtime_error("no process");
+  if (process == 0) {
+    close(ends[0]);
+    run_in_child(cases[index], seconds, ends[1]);
+  }
+  close(ends[1]);
+  return {index, process, ends[0], "", std::chrono::steady_clock::now()};
+}
+
+// Reads what there is; false at the end.
+bool read_some(Running& child) {
   char buffer[4096];
-  for (ssize_t n; (n = read(pipe, buffer, sizeof buffer)) > 0;) text.append(buffer, size_t(n));
-  return text;
+  const ssize_t n = read(child.pipe, buffer, sizeof buffer);
+  if (n > 0) child.text.append(buffer, size_t(n));
+  return n > 0;
+}
+
+Result finish(const Running& child, double seconds) {
+  close(child.pipe);
+  int status = 0;
+  waitpid(child.process, &status, 0);
+  if (WIFSIGNALED(status))
+    return {Outcome::failed,
+            WTERMSIG(status) == SIGALRM ? "time limit of " + number(seconds) + " s"
+                                        : std::string("crash: ") + strsignal(WTERMSIG(status)),
+            0};
+  Result result;
+  int outcome = 0, begin = 0;
+  if (std::sscanf(child.text.c_str(), "%d %lf\n%n", &outcome, &result.error, &begin) != 2)
+    return {Outcome::failed, "the process ended without a result", 0};
+  result.outcome = Outcome(outcome);
+  result.text = child.text.substr(size_t(begin));
+  return result;
 }
 
 }  // namespace
@@ -65,33 +110,31 @@ void Checks::add(const std::string& what, double error, double bound) {
             what + " " + number(error) + " (bound " + number(bound) + ")", ratio};
 }
 
-Result run_isolated(const Case& one, double seconds) {
-  int ends[2];
-  if (pipe(ends) != 0) return {Outcome::failed, "no pipe", 0};
-  std::fflush(nullptr);
-  const pid_t child = fork();
-  if (child < 0) return {Outcome::failed, "no process", 0};
-  if (child == 0) {
-    close(ends[0]);
-    run_in_child(one, seconds, ends[1]);
+void run_isolated(const std::vector<Case>& cases, double seconds, int n_processes, const OnResult& on_result) {
+  struct Done {
+    Result result;
+    double seconds;
+  };
+  std::map<size_t, Done> done;  // not yet reported
+  std::vector<Running> running;
+  size_t next = 0, reported = 0;
+  while (reported < cases.size()) {
+    while (int(running.size()) < n_processes && next < cases.size()) running.push_back(start(cases, next++, seconds));
+    std::vector<pollfd> waiting;
+    for (const auto& child : running) waiting.push_back({child.pipe, POLLIN, 0});
+    poll(waiting.data(), waiting.size(), -1);
+    for (size_t k = running.size(); k-- > 0;) {
+      if (waiting[k].revents == 0 || read_some(running[k])) continue;
+      const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - running[k].start;
+      done[running[k].index] = {finish(running[k], seconds), spent.count()};
+      running.erase(running.begin() + k);
+    }
+    for (; done.count(reported) > 0; ++reported) {
+      const Done one = done[reported];
+      done.erase(reported);
+      on_result(reported, one.result, one.seconds);
+    }
   }
-  close(ends[1]);
-  const std::string text = read_all(ends[0]);
-  close(ends[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (WIFSIGNALED(status))
-    return {Outcome::failed,
-            WTERMSIG(status) == SIGALRM ? "time limit of " + number(seconds) + " s"
-                                        : std::string("crash: ") + strsignal(WTERMSIG(status)),
-            0};
-  Result result;
-  int outcome = 0, begin = 0;
-  if (std::sscanf(text.c_str(), "%d %lf\n%n", &outcome, &result.error, &begin) != 2)
-    return {Outcome::failed, "the process ended without a result", 0};
-  result.outcome = Outcome(outcome);
-  result.text = text.substr(size_t(begin));
-  return result;
 }
 
 std::vector<Case> all_cases() {

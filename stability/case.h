@@ -48,7 +48,7 @@ class Checks {
   Result result() const { return worst_; }
 
  private:
-  Result worst_{Outcome::solved, "nothing checked", -1};
+  Result worst_{Outcome::failed, "nothing was checked", -1};
 };
 
 /// All cases, in the order of the table.
@@ -58,8 +58,12 @@ std::vector<Case> kinematics_cases();
 std::vector<Case> mechanics_cases();
 std::vector<Case> solver_cases();
 
-/// Runs the case in a child process with a time limit: a crash, an endless loop or an allocation of more
-/// memory than the limit ends the child alone and is a failed result. InputError and Refusal are refusals.
-Result run_isolated(const Case& one, double seconds = 60);
+/// Called once for every case, in their order: its index, what came out, its wall time.
+using OnResult = std::function<void(size_t, const Result&, double seconds)>;
+
+/// Runs every case in a process of its own, some at a time, with a time limit each: a crash, an endless loop
+/// or an allocation beyond 6 GB ends that process alone and is a failed result. InputError and Refusal are
+/// refusals, other exceptions failures.
+void run_isolated(const std::vector<Case>& cases, double seconds, int n_processes, const OnResult& on_result);
 
 }  // namespace sem::stability

@@ -1,5 +1,4 @@
 // sem_stability: every hard case in a process of its own, and a table of what happened.
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 
@@ -25,13 +24,6 @@ const char* verdict(const Row& row) {
 }
 
 const char* rule_name(Rule rule) { return rule == Rule::must_solve ? "must" : "may"; }
-
-Row run(const Case& one, double seconds) {
-  const auto start = std::chrono::steady_clock::now();
-  Row row{one, run_isolated(one, seconds), 0};
-  row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return row;
-}
 
 void print(const Row& row) {
   std::printf("%-7s %-4s %-10s %-38s %-13s %7.2f s  %s\n", verdict(row), rule_name(row.one.rule),
@@ -75,26 +67,29 @@ int main(int argc, char** argv) try {
                "failed, or more than a tenth were refused."};
   bool fast = false, list = false;
   double seconds = 60;
+  int n_processes = 2;
   std::string only, csv;
   app.add_flag("--fast", fast, "the fast subset");
   app.add_flag("--list", list, "names the cases");
   app.add_option("--only", only, "cases whose group, name or variant contains this");
   app.add_option("--csv", csv, "also writes the table to this file");
   app.add_option("--seconds", seconds, "time limit of a case")->check(CLI::PositiveNumber);
+  app.add_option("--processes", n_processes, "cases at a time")->check(CLI::Range(1, 64));
   CLI11_PARSE(app, argc, argv);
-  std::vector<Row> rows;
+  std::vector<Case> cases;
   for (const auto& one : all_cases()) {
     const std::string label = one.group + ": " + one.name + " " + one.variant;
     if ((fast && !one.fast) || label.find(only) == std::string::npos) continue;
-    if (list) {
-      std::printf("%s\n", label.c_str());
-      continue;
-    }
-    rows.push_back(run(one, seconds));
-    print(rows.back());
+    if (list) std::printf("%s\n", label.c_str());
+    cases.push_back(one);
   }
   if (list) return 0;
-  if (rows.empty()) throw InputError("", "--only", only, "part of a case's name (--list)");
+  if (cases.empty()) throw InputError("", "--only", only, "part of a case's name (--list)");
+  std::vector<Row> rows;
+  run_isolated(cases, seconds, n_processes, [&](size_t k, const Result& result, double spent) {
+    rows.push_back({cases[k], result, spent});
+    print(rows.back());
+  });
   if (!csv.empty()) write_csv(csv, rows);
   return summarise(rows, only.empty());
 } catch (const InputError& error) {

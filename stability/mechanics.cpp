@@ -473,22 +473,22 @@ std::vector<Case> mechanics_cases() {
           group.add(text("dt = %g s", dt) + by, in_2d, Rule::must_solve, dt == 1, [=] { return one_mode<2>(f, integrator, dt); });
       if (integrator != Integrator::implicit_midpoint)
         group.add("dt = 1 s to rest" + by, in_2d, Rule::must_solve, true, [=] { return long_step<2>(f, integrator); });
-      group.add("steel, dt = 0.01 s" + by, in_2d, Rule::must_solve, false, [=] { return steel<2>(f, integrator); });
+      group.add("steel with dt = 0.01 s" + by, in_2d, Rule::must_solve, false, [=] { return steel<2>(f, integrator); });
     }
     group.add("10 m/s into a pin implicit_euler", in_3d, Rule::may_refuse, false, [=] { return impact<3>(f, Integrator::implicit_euler); });
     group.add("dt = 1 s implicit_midpoint", in_3d, Rule::must_solve, false, [=] { return one_mode<3>(f, Integrator::implicit_midpoint, 1); });
-    group.add("steel, dt = 0.01 s implicit_euler", in_3d, Rule::must_solve, false, [=] { return steel<3>(f, Integrator::implicit_euler); });
+    group.add("steel with dt = 0.01 s implicit_euler", in_3d, Rule::must_solve, false, [=] { return steel<3>(f, Integrator::implicit_euler); });
     group.add("one pinned point: pendulum", in_2d, Rule::must_solve, false, [=] { return pendulum(f); });
     group.add("one pinned point: statics", in_2d, Rule::may_refuse, true, [=] { return one_point_static<2>(f); });
     group.add("one pinned point: statics", in_3d, Rule::may_refuse, false, [=] { return one_point_static<3>(f); });
-    group.add("no pin, 1e5 steps", in_2d, Rule::must_solve, false, [=] { return free_flight<2>(f, 100000); });
-    group.add("no pin, 3e3 steps", in_2d, Rule::must_solve, true, [=] { return free_flight<2>(f, 3000); });
-    group.add("no pin, 3e3 steps", in_3d, Rule::must_solve, false, [=] { return free_flight<3>(f, 3000); });
+    group.add("no pin for 1e5 steps", in_2d, Rule::must_solve, false, [=] { return free_flight<2>(f, 100000); });
+    group.add("no pin for 3e3 steps", in_2d, Rule::must_solve, true, [=] { return free_flight<2>(f, 3000); });
+    group.add("no pin for 3e3 steps", in_3d, Rule::must_solve, false, [=] { return free_flight<3>(f, 3000); });
   }
   for (const double nu : {0.4999, 0.49999}) {
     const Rule rule = nu > 0.4999 ? Rule::may_refuse : Rule::must_solve;
-    group.add(text("bending, nu = %g", nu), variant<2>(Formulation::condensed), rule, true, [=] { return bending(nu); });
-    group.add(text("Cook's membrane, nu = %g", nu), variant<2>(Formulation::condensed), rule, false, [=] { return cook(nu); });
+    group.add(text("bending with nu = %g", nu), variant<2>(Formulation::condensed), rule, true, [=] { return bending(nu); });
+    group.add(text("Cook's membrane nu = %g", nu), variant<2>(Formulation::condensed), rule, false, [=] { return cook(nu); });
   }
   group.add("pins turned by 720 degrees", variant<2>(Formulation::projected), Rule::must_solve, true, [] { return turned_by_pins<2>(); });
   group.add("pins turned by 720 degrees", variant<3>(Formulation::projected), Rule::must_solve, false, [] { return turned_by_pins<3>(); });

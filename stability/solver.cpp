@@ -140,7 +140,7 @@ std::vector<Case> solver_cases() {
     add("one iteration allowed", in_2d, Rule::may_refuse, [=] { return too_few_iterations(f); });
     add("no pins", in_2d, Rule::may_refuse, [=] { return loose(f, false); });
     add("a loose solid", in_2d, Rule::may_refuse, [=] { return loose(f, true); });
-    add("no mass, no pins", in_2d, Rule::may_refuse, [=] { return massless(f); });
+    add("neither mass nor pins", in_2d, Rule::may_refuse, [=] { return massless(f); });
     add("tolerance below rounding", in_2d, Rule::must_solve, [=] { return tolerance_below_rounding(f); });
   }
   add("gradient points uphill", "", Rule::may_refuse, [] { return statics_of(Fault::gradient_reversed, Status::line_search_failed); });

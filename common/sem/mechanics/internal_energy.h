@@ -51,6 +51,7 @@ class InternalEnergy : public Potential {
     std::vector<StressDerivative<Dim>> tangent;  // v_k dP/dF at each point
   };
 
+  void set_stability_force(const Eigen::Map<const Points<Dim>>& nodes);
   void deformation_gradients(const Eigen::VectorXd& z, const MapBlock<Dim>& block, Workspace& work);
   const Material& material(int point) const { return materials_.materials[materials_.of_point[point]]; }
 
@@ -61,7 +62,7 @@ class InternalEnergy : public Potential {
   Clamps<Dim> clamps_;
   bool quadratic_;
   std::vector<Workspace> work_;
-  Points<Dim> stability_force_;  // Dim by n_columns
+  Points<Dim> stability_nodes_, stability_force_;  // Dim by n_columns
 };
 
 }  // namespace sem
