@@ -34,6 +34,17 @@ double identity_error(const Model<Dim>& model, double size) {
   return error;
 }
 
+// Stored energy with the stability term about the rest shape: as a form in z it is all rounding where
+// displacements are small.
+template <int Dim>
+double stored_energy(const Model<Dim>& model, const VectorXd& z) {
+  const VectorXd u = z - model.system.rest;
+  const Eigen::Map<const Points<Dim>> nodes(u.data(), Dim, u.size() / Dim);
+  const double elastic = model.energy->energy(z) - model.energy->stability_energy(z);
+  if (model.discretization.unknowns.S.size() > 0) return elastic;  // condensed: no such term
+  return elastic + model.stability_stiffness / 2 * (nodes * model.stability).cwiseProduct(nodes).sum();
+}
+
 double volume_bound(const InteriorOptions& options, const Bounds& bounds) {
   const bool resolved = options.rule == InteriorRule::resolved;
   return bounds.volume + (resolved ? options.weight_tolerance / 10 : 10 * options.tolerance);
@@ -141,6 +152,11 @@ void check_fall(Scene<Dim> scene, const Body<Dim>& body, const Bounds& bounds, C
 
 template <int Dim>
 double check_hanging(Scene<Dim> scene, const Body<Dim>& body, const Bounds& bounds, Checks& checks) {
+  for (auto& solid : scene.solids) {
+    solid.material.model = MaterialModel::linear;
+    for (auto& part : solid.parts)
+      if (part.material) part.material->model = MaterialModel::linear;
+  }
   const Material& material = scene.solids[0].material;
   scene.gravity[1] = -strain * material.youngs_modulus / (material.density * body.size);
   scene.pins = {pin_on<Dim>("part.1")};
@@ -154,7 +170,7 @@ double check_hanging(Scene<Dim> scene, const Body<Dim>& body, const Bounds& boun
   pin[1] -= weight;
   checks.add("pin's force - weight", pin.norm() / weight, bounds.balance + volume_bound(scene.method.interior_rule, bounds));
   const double work = model->system.load.dot(state.z - model->system.rest);
-  checks.add("work / energy - 2", work / model->energy->energy(state.z) - 2, 1e-2);
+  checks.add("work / energy - 2", work / stored_energy(*model, state.z) - 2, 1e-3);
   return work / (weight * body.size);
 }
 

@@ -52,7 +52,7 @@ void check_model(const Scene<Dim>& scene, const Model<Dim>& model, const Body<Di
 template <int Dim>
 void check_fall(Scene<Dim> scene, const Body<Dim>& body, const Bounds& bounds, Checks& checks);
 
-/// Static, held at the first part under its weight: the pin carries rho g V, the load's work is twice the
+/// Linear statics, held at the first part under its weight: the pin carries rho g V, the load's work is twice the
 /// stored energy. Returns the mean displacement along gravity by size, for comparisons.
 template <int Dim>
 double check_hanging(Scene<Dim> scene, const Body<Dim>& body, const Bounds& bounds, Checks& checks);

@@ -30,12 +30,13 @@ Vec<2> end(const Curve& curve, bool last) {
   return point(curve, Param<1>(last ? range.upper : range.lower));
 }
 
-// Largest side of the box of the parts' ends: near enough for lengths that scale with it.
+// Largest side of the box of some points of each knot span: near enough for lengths that scale with it.
 double extent(const PlaneShape& shape) {
   Box<2> box;
   for (const auto& solid : shape.solids)
     for (const auto& curve : solid.boundary)
-      for (const bool last : {false, true}) box.include(end(curve, last));
+      for (const auto& [a, b] : spans(curve, 0))
+        for (int k = 0; k <= 4; ++k) box.include(point(curve, Param<1>(a + k * (b - a) / 4)));
   return (box.upper - box.lower).maxCoeff();
 }
 

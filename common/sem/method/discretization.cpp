@@ -123,6 +123,9 @@ Quadrature<Dim> resolve_weights(Discretization<Dim>& d) {
   options.axis = d.options.rays.axis;
   options.points = std::max(3, d.options.projection.degree + 1);
   options.tolerance = d.options.interior_rule.weight_tolerance;
+  // Where weights are smooth a few points would do for them, but not for all the functions they carry.
+  if (d.options.formulation == Formulation::condensed)
+    options.min_points = 2 * d.boundary.n_parts() * (Monomials<Dim>(d.options.projection.degree).size() + 1);
   auto rule = resolved_rule<Dim>(
       d.boundary, d.loops, [&](const Points<Dim>& X) { return weight_indicators(d, X); }, options,
       d.options.n_threads);

@@ -122,6 +122,7 @@ ExactRule<Dim> exact_rule(const Boundary<Dim>& boundary, const Loops<Dim>& loops
     const auto look = look_at(component, size, options);
     if (!(look.measure > 0)) continue;
     auto all = candidate_rules(component, look, options.rule);
+    if (all.empty()) continue;  // thinner than the rounding of critical values
     size_t best = 0;
     for (size_t k = 1; k < all.size(); ++k)
       if (is_better(all[k], all[best], options.tolerance)) best = k;
