@@ -24,7 +24,7 @@ double column_of(const std::string& variant) {
 Data compute() {
   const std::vector<Case> cases = stability::all_cases();
   std::vector<Result> results;
-  stability::run_isolated(cases, 60, 2, [&](size_t, const Result& result, double) { results.push_back(result); });
+  stability::run_isolated(cases, 120, 2, [&](size_t, const Result& result, double) { results.push_back(result); });
   std::vector<std::string> names;
   for (const auto& one : cases)
     if (std::find(names.begin(), names.end(), one.group + ": " + one.name) == names.end())

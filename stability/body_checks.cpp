@@ -47,7 +47,7 @@ double stored_energy(const Model<Dim>& model, const VectorXd& z) {
 
 double volume_bound(const InteriorOptions& options, const Bounds& bounds) {
   const bool resolved = options.rule == InteriorRule::resolved;
-  return bounds.volume + (resolved ? options.weight_tolerance / 10 : 10 * options.tolerance);
+  return bounds.volume + (resolved ? options.weight_tolerance : 10 * options.tolerance);
 }
 
 }  // namespace
@@ -78,7 +78,6 @@ Scene<Dim> scene_of(const Body<Dim>& body, Formulation formulation) {
   if (formulation == Formulation::condensed) {
     method.weights.variant = DistanceWeight::sided;
     if (Dim == 2) method.interior_rule.rule = InteriorRule::resolved;
-    method.interior_rule.weight_tolerance = 2e-2;
   }
   scene.analysis.kind = AnalysisKind::statics;
   scene.output.error_estimate = false;

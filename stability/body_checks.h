@@ -16,8 +16,8 @@ std::string variant(Formulation formulation);
 /// Relative bounds.
 struct Bounds {
   double volume = 0;       ///< of the interior rule against the closed form, beside what the rule promises:
-                           ///< ten times the tolerance of rays between critical values, a tenth of the
-                           ///< tolerance (on weights) of a resolved rule
+                           ///< ten times the tolerance of rays between critical values, the tolerance of a
+                           ///< resolved rule
   double identity = 1e-8;  ///< |x(X) - X| / size, |F - I| of the undeformed map
   double energy = 1e-8;    ///< of an affine field against Psi(F) times the volume
   double fall = 1e-8;      ///< of a step's way against g dt^2 n (n + 1) / 2

@@ -241,12 +241,12 @@ std::vector<BodyCase> shape_cases() {
   }});
   cases.push_back({.name = "500 parts", .shape = many_parts(), .method = [](MethodOptions& method) {
     method.projection.degree = 1;
-    method.weights.cutoff = 0.75;
+    method.weights.cutoff = 0.55;
     if (method.formulation == Formulation::condensed) return;
     // Points between all parts: the cheapest rule that is exact for polynomials has fewer than parts.
     method.interior_rule.rule = InteriorRule::rays;
-    method.rays = {.axis = 1, .n_rays = 480, .grid = RayGrid::midpoint};
-    method.interval.points = 20;
+    method.rays = {.axis = 1, .n_rays = 240, .grid = RayGrid::midpoint};
+    method.interval.points = 10;
   }});
   return cases;
 }

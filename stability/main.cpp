@@ -66,7 +66,7 @@ int main(int argc, char** argv) try {
   CLI::App app{"Runs the hard cases, each in a process of its own, and prints what happened. Exit code 1: a case "
                "failed, or more than a tenth were refused."};
   bool fast = false, list = false;
-  double seconds = 60;
+  double seconds = 120;
   int n_processes = 2;
   std::string only, csv;
   app.add_flag("--fast", fast, "the fast subset");
