@@ -212,7 +212,9 @@ std::vector<BodyCase> thin_cases() {
     // Positions are rounded to 1e-16 of the size, strains across a thin solid to that by its thickness; a
     // sag below the thinner ones is as small as that.
     for (size_t k = cases.size() - 5; k < cases.size() - 3; ++k) {
-      cases[k].bounds.identity = cases[k].bounds.energy = std::max(1e-8, 1e-14 / eps);
+      cases[k].bounds.identity = std::max(1e-8, 1e-14 / eps);
+      cases[k].bounds.energy = std::max(1e-8, 1e-12 / eps);
+      cases[k].bounds.balance = 1e-3;
       if (eps < 1e-3) cases[k].shape.connected = false;
     }
   }
@@ -253,7 +255,14 @@ std::vector<BodyCase> shape_cases() {
 
 std::vector<BodyCase> curve_cases() {
   std::vector<BodyCase> cases;
-  for (const double w : {1e-6, 1e-3, 1e3, 1e6}) cases.push_back({"weight " + power(w) + " in the middle", conic_segment(w)});
+  for (const double w : {1e-6, 1e-3, 1e3, 1e6}) {
+    cases.push_back({"weight " + power(w) + " in the middle", conic_segment(w)});
+    cases.back().bounds.volume = 1e-3;  // in 3D rays are not split where the surface turns back
+    cases.back().bounds.balance = 1e-4;
+    if (w > 1e-6) continue;
+    cases.back().bounds.energy = 1e-6;  // half a millionth thin
+    cases.back().shape.connected = false;
+  }
   for (const double stretch : {1e-3, 1e3})
     cases.push_back({"weights 1 to " + power(stretch * stretch) + " along arcs", disc({0, 0}, 1, stretch), Rule::must_solve, {.volume = 1e-4}});
   for (int degree = 1; degree <= 9; ++degree)
