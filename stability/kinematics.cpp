@@ -98,7 +98,7 @@ std::vector<BodyCase> body_cases() {
   cases.push_back({.name = "straight parts of degree 2", .shape = bulging(0), .fast = true});
   for (const double cutoff : {1e-3, 0.2}) {
     char name[64];
-    std::snprintf(name, sizeof name, "cutoff %g leaves points uncovered", cutoff);
+    std::snprintf(name, sizeof name, "cutoff %g: uncovered points", cutoff);
     cases.push_back({.name = name, .shape = square, .rule = Rule::may_refuse, .fast = cutoff == 0.2});
     set_cutoff(cases.back(), cutoff);
   }
