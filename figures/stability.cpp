@@ -80,7 +80,7 @@ void draw_rows(Panel& panel, const Data& data, size_t begin, size_t end, size_t 
     ++row;
   }
   for (int v = 0; v < 3; ++v) panel.area(cells[v], verdicts[v].color, verdicts[v].label);
-  panel.x.ticks = {{0, "2p"}, {1, "2c"}, {2, "3p"}, {3, "3c"}};
+  panel.x.ticks = {{0.5, "2D"}, {2.5, "3D"}};
   panel.x.lower = -0.6;
   panel.x.upper = 3.6;
   panel.y.lower = -double(n_rows) + 0.4;
@@ -92,15 +92,15 @@ void draw(Plot& plot, const Data& data) {
   plot.shared_legend = true;
   const size_t n = data.tables().size(), share = (n + n_columns - 1) / n_columns;
   for (int c = 0; c < n_columns; ++c)
-    draw_rows(plot.panel(0, c), data, c * share, std::min(n, (c + 1) * share), share + 2);
+    draw_rows(plot.panel(0, c), data, c * share, std::min(n, (c + 1) * share), share + 4);
 }
 
 }  // namespace
 
 Figure stability_matrix() {
   return {"stability_matrix",
-          "Hard cases, each in a process of its own: cases against dimension and formulation (2p: 2D, "
-          "projected, the paper's; 3c: 3D, condensed)",
+          "Hard cases, each in a process of its own: cases against dimension and formulation (of two "
+          "columns the left one projected, the right one condensed)",
           7,
           6.5,
           compute,
