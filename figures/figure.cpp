@@ -24,7 +24,8 @@ const std::vector<Figure>& all_figures() {
                                               nonzeros_step_time(),
                                               pruning(),
                                               integrators(),
-                                              release()};
+                                              release(),
+                                              stability_matrix()};
   return figures;
 }
 

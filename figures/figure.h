@@ -63,5 +63,6 @@ Figure nonzeros_step_time();
 Figure pruning();
 Figure integrators();
 Figure release();
+Figure stability_matrix();
 
 }  // namespace sem::figures

@@ -32,6 +32,7 @@ InternalEnergy<Dim>::InternalEnergy(const Map<Dim>& map, const VectorXd& weight,
       clamps_(std::move(clamps)),
       pressure_(std::move(pressure)),
       work_(map.blocks.size()),
+      stability_nodes_(Dim, map.n_columns),
       stability_force_(Dim, map.n_columns) {
   quadratic_ = std::all_of(materials_.of_point.begin(), materials_.of_point.end(), [&](int m) {
     return is_quadratic(materials_.materials[m].model);
@@ -99,12 +100,19 @@ double InternalEnergy<Dim>::mixed_energy(const VectorXd& z) {
   return sum;
 }
 
+// gamma S z. S knows no translation: about the first node, so that a body far from zero loses no digits.
+template <int Dim>
+void InternalEnergy<Dim>::set_stability_force(const Eigen::Map<const Points<Dim>>& nodes) {
+  stability_nodes_ = nodes.colwise() - nodes.col(0);
+  stability_force_.noalias() = stability_nodes_ * stability_;
+}
+
 template <int Dim>
 double InternalEnergy<Dim>::stability_energy(const VectorXd& z) {
   if (stability_.size() == 0) return 0;
   const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, map_.n_columns);
-  stability_force_.noalias() = nodes * stability_;
-  return stability_force_.cwiseProduct(nodes).sum() / 2;
+  set_stability_force(nodes);
+  return stability_force_.cwiseProduct(stability_nodes_).sum() / 2;
 }
 
 template <int Dim>
@@ -118,10 +126,12 @@ void InternalEnergy<Dim>::gradient(const VectorXd& z, VectorXd& g) {
   update_pressure(z);
   const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, map_.n_columns);
   Eigen::Map<Points<Dim>> out(g.data(), Dim, map_.n_columns);
-  if (stability_.size() > 0)
-    out.noalias() = nodes * stability_;
-  else
+  if (stability_.size() > 0) {
+    set_stability_force(nodes);
+    out = stability_force_;
+  } else {
     out.setZero();
+  }
   for (size_t i = 0; i < work_.size(); ++i) {
     const auto& block = map_.blocks[i];
     Workspace& work = work_[i];

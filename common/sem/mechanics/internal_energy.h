@@ -55,6 +55,7 @@ class InternalEnergy : public Potential {
     std::vector<StressDerivative<Dim>> tangent;  // v_k dP/dF at each point
   };
 
+  void set_stability_force(const Eigen::Map<const Points<Dim>>& nodes);
   void deformation_gradients(const Eigen::VectorXd& z, const MapBlock<Dim>& block, Workspace& work);
   // Solves for the pressure at z; false where g is not defined (J <= 0).
   bool update_pressure(const Eigen::VectorXd& z);
@@ -72,7 +73,7 @@ class InternalEnergy : public Potential {
   Pressure<Dim> pressure_;
   bool quadratic_;
   std::vector<Workspace> work_;
-  Points<Dim> stability_force_;  // Dim by n_columns
+  Points<Dim> stability_nodes_, stability_force_;  // Dim by n_columns
 };
 
 }  // namespace sem

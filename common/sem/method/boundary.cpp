@@ -3,8 +3,26 @@
 #include <numeric>
 
 #include "sem/base/error.h"
+#include "sem/nurbs/refine.h"
 
 namespace sem {
+
+namespace {
+
+// The box of a part, from the control points; from those of refined pieces where weights differ so much
+// that it may stay far from some of its control points.
+template <int Dim>
+Box<Dim> close_box(const PreparedNurbs<Dim - 1, Dim>& part) {
+  const auto& weights = part.nurbs.weights;
+  if (weights.maxCoeff() <= 4 * weights.minCoeff()) return part.box;
+  Nurbs<Dim - 1, Dim> refined = part.nurbs;
+  for (int halving = 0; halving < 4; ++halving)
+    for (int axis = 0; axis < Dim - 1; ++axis)
+      for (const auto& [a, b] : spans(refined, axis)) refined = insert_knot(refined, axis, (a + b) / 2);
+  return prepare(refined).box;
+}
+
+}  // namespace
 
 template <int Dim>
 Boundary<Dim> make_boundary(const std::vector<std::vector<Nurbs<Dim - 1, Dim>>>& solids) {
@@ -17,7 +35,7 @@ Boundary<Dim> make_boundary(const std::vector<std::vector<Nurbs<Dim - 1, Dim>>>&
       boundary.solid.push_back(s);
       boundary.first_control.push_back(boundary.first_control.back() +
                                        int(shape.control_points.cols()));
-      boundary.box.include(boundary.parts.back().box);
+      boundary.box.include(close_box<Dim>(boundary.parts.back()));
     }
   if (boundary.parts.empty()) throw InputError("", "solids", "no part", "at least one part");
   return boundary;

@@ -69,6 +69,9 @@ std::vector<Component<Dim>> split_into_components(const Boundary<Dim>& boundary,
     component.boundary.first_control = {0};
     for (size_t l = first; l < group.size(); ++l)
       if (group[l] == first) append_loop(boundary, loops, loops.loops[l], component);
+    Box<Dim>& box = component.boundary.box;
+    box.lower = box.lower.cwiseMax(boundary.box.lower);  // closer than the parts' control points
+    box.upper = box.upper.cwiseMin(boundary.box.upper);
     component.loops.longest_gap = loops.longest_gap;
     component.loops.n_gaps = loops.n_gaps;
   }

@@ -159,11 +159,24 @@ Quadrature<Dim> resolve_weights(Discretization<Dim>& d) {
   options.axis = d.options.rays.axis;
   options.points = std::max(3, d.options.projection.degree + 1);
   options.tolerance = d.options.interior_rule.weight_tolerance;
+  // Where weights are smooth a few points would do for them, but not for all the functions they carry.
+  if (d.options.formulation == Formulation::condensed)
+    options.min_points = 2 * d.boundary.n_parts() * (Monomials<Dim>(d.options.projection.degree).size() + 1);
   auto rule = resolved_rule<Dim>(
       d.boundary, d.loops, [&](const Points<Dim>& X) { return weight_indicators(d, X); }, options,
       d.options.n_threads);
   d.interior_report.error = rule.error;
   return std::move(rule.quadrature);
+}
+
+// Positions are rounded to 1e-16 of the size: nothing is left of strains across less than this.
+template <int Dim>
+void require_thickness(const Boundary<Dim>& boundary) {
+  constexpr double least = 1e-10;
+  const double share = (boundary.box.upper - boundary.box.lower).minCoeff() / boundary.box.diagonal();
+  if (share < least)
+    throw InputError("", "solids", "a body as thin as " + std::to_string(share / least) + " times 1e-10 of its size",
+                     "at least 1e-10 of it");
 }
 
 }  // namespace
@@ -175,6 +188,7 @@ Discretization<Dim> discretize(const std::vector<std::vector<Nurbs<Dim - 1, Dim>
   const int n_threads = options.n_threads;
   d.options = options;
   d.boundary = timed(d.cost, "parts", [&] { return make_boundary<Dim>(solids); });
+  require_thickness(d.boundary);
   d.loops = timed(d.cost, "loops", [&] { return find_loops(d.boundary); });
   d.samples = timed(d.cost, "boundary samples",
                     [&] { return sample_boundary(d.boundary, options.sampling); });

@@ -27,10 +27,27 @@ struct FirstLook {
   Yardstick<Dim> yardstick;
   double measure;  // area, volume
 };
+// 24 rays across, along the axis on which they find most of the inside: none lies flat on a thin component.
+template <int Dim>
+Rays<Dim> first_rays(const Component<Dim>& component) {
+  Rays<Dim> best;
+  double most = -1;
+  for (int axis = 0; axis < Dim; ++axis) {
+    Rays<Dim> rays = cast_rays(component.boundary, component.loops, {.axis = axis, .n_rays = 24});
+    double measure = 0;
+    for (const auto& ray : rays.rays)
+      for (const auto& interval : ray.intervals) measure += ray.weight * (interval.end - interval.begin);
+    if (measure <= most) continue;
+    most = measure;
+    best = std::move(rays);
+  }
+  return best;
+}
+
 template <int Dim>
 FirstLook<Dim> look_at(const Component<Dim>& component, double size,
                        const InteriorOptions& options) {
-  const auto rays = cast_rays(component.boundary, component.loops, {.n_rays = 24});
+  const Rays<Dim> rays = first_rays(component);
   const Vec<Dim> center = (component.boundary.box.lower + component.boundary.box.upper) / 2;
   FirstLook<Dim> look{{SmoothIntegrands<Dim>(center, size, options.waves),
                        {},
@@ -105,6 +122,7 @@ ExactRule<Dim> exact_rule(const Boundary<Dim>& boundary, const Loops<Dim>& loops
     const auto look = look_at(component, size, options);
     if (!(look.measure > 0)) continue;
     auto all = candidate_rules(component, look, options.rule);
+    if (all.empty()) continue;  // thinner than the rounding of critical values
     size_t best = 0;
     for (size_t k = 1; k < all.size(); ++k)
       if (is_better(all[k], all[best], options.tolerance)) best = k;

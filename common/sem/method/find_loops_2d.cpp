@@ -14,15 +14,15 @@ struct End {
   Vec<2> position;
 };
 
+Vec<2> last_point(const BezierPiece<1, 2>& piece) { return piece.points.col(piece.points.cols() - 1); }
+
 std::vector<End> open_ends(const Boundary<2>& boundary, int solid) {
   std::vector<End> ends;
   for (int i = 0; i < boundary.n_parts(); ++i) {
     if (boundary.solid[i] != solid) continue;
     const auto& pieces = boundary.parts[i].pieces;
-    const Vec<2> first = pieces.front().points.col(0);
-    const Vec<2> last = pieces.back().points.col(pieces.back().points.cols() - 1);
-    ends.push_back({i, false, first});
-    ends.push_back({i, true, last});
+    ends.push_back({i, false, pieces.front().points.col(0)});
+    ends.push_back({i, true, last_point(pieces.back())});
   }
   return ends;
 }
@@ -48,6 +48,14 @@ std::vector<int> match_ends(const std::vector<End>& ends) {
   return partner;
 }
 
+// Closes the loop straight from one point to another, also where they differ by rounding only.
+void add_cap(const Vec<2>& from, const Vec<2>& to, Loop<2>& loop, Loops<2>& all) {
+  if (from == to) return;
+  loop.caps.push_back(int(all.caps.size()));
+  all.caps.push_back(prepare(segment<2>(from, to)));
+  all.cap_length.push_back((to - from).norm());
+}
+
 }  // namespace
 
 template <>
@@ -65,11 +73,10 @@ Loops<2> join_parts<2>(const Boundary<2>& boundary) {
       for (int e = start; !visited[e]; e = partner[e ^ 1]) {
         visited[e] = visited[e ^ 1] = true;
         loop.parts.push_back(ends[e].part);
-        const Vec<2> from = ends[e ^ 1].position, to = ends[partner[e ^ 1]].position;
-        if (from == to) continue;
-        loop.caps.push_back(int(result.caps.size()));
-        result.caps.push_back(prepare(segment<2>(from, to)));
-        result.cap_length.push_back((to - from).norm());
+        const auto& pieces = boundary.parts[ends[e].part].pieces;
+        for (size_t k = 0; k + 1 < pieces.size(); ++k)  // a part may jump at a knot
+          add_cap(last_point(pieces[k]), pieces[k + 1].points.col(0), loop, result);
+        add_cap(ends[e ^ 1].position, ends[partner[e ^ 1]].position, loop, result);
       }
       result.loops.push_back(std::move(loop));
     }

@@ -11,7 +11,18 @@ int root(std::vector<int>& parent, int i) {
   return i;
 }
 
-// True if a corner of one patch lies on the other: shells grow across shared edges.
+// True if the parameter lies on the border of the patch's domain.
+bool on_border(const Nurbs<2, 3>& shape, const Param<2>& u) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const Interval range = domain(shape, axis);
+    const double near = 1e-6 * (range.upper - range.lower);
+    if (u[axis] - range.lower <= near || range.upper - u[axis] <= near) return true;
+  }
+  return false;
+}
+
+// True if a corner of one patch lies on an edge of the other: shells grow across shared edges, also of
+// unequal patches, but not where two faces merely lie in each other.
 bool touch(const Boundary<3>& boundary, int i, int j) {
   const double tolerance = boundary.tolerance();
   for (const auto& [a, b] : {std::pair{i, j}, std::pair{j, i}}) {
@@ -19,7 +30,8 @@ bool touch(const Boundary<3>& boundary, int i, int j) {
     const int nu = n_control(shape, 0), nv = n_control(shape, 1);
     for (const int corner : {0, nu - 1, nu * (nv - 1), nu * nv - 1}) {
       const Vec<3> X = shape.control_points.col(corner);
-      if (closest_point(boundary.parts[b], X, 2 * tolerance).distance <= tolerance) return true;
+      const auto foot = closest_point(boundary.parts[b], X, 2 * tolerance);
+      if (foot.distance <= tolerance && on_border(boundary.parts[b].nurbs, foot.u)) return true;
     }
   }
   return false;

@@ -68,19 +68,21 @@ bool contains(const Boundary<Dim>& boundary, const Loops<Dim>& loops, int outer,
   return any;
 }
 
-// Which side of a part its own solid is on: +1 if its normal points outward.
+// Which side of a part its own solid is on: +1 if its normal points outward. Steps become shorter, for
+// solids thinner than they are.
 template <int Dim>
 int orientation(const Boundary<Dim>& boundary, const Loops<Dim>& loops, int solid,
                 const PreparedNurbs<Dim - 1, Dim>& part) {
-  for (const auto& u : inner_parameters<Dim>(part)) {
-    const auto at = derivatives(part.nurbs, u, 1);
-    const Vec<Dim> normal = DimTraits<Dim>::area_normal(at.first).normalized();
-    if (!normal.allFinite()) continue;
-    const Vec<Dim> step = 1e-6 * part.box.diagonal() * normal;
-    const bool before = inside(boundary, loops, Vec<Dim>(at.point - step), solid);
-    const bool behind = inside(boundary, loops, Vec<Dim>(at.point + step), solid);
-    if (before != behind) return before ? 1 : -1;
-  }
+  for (const double share : {1e-6, 1e-8, 1e-10, 1e-12})
+    for (const auto& u : inner_parameters<Dim>(part)) {
+      const auto at = derivatives(part.nurbs, u, 1);
+      const Vec<Dim> normal = DimTraits<Dim>::area_normal(at.first).normalized();
+      if (!normal.allFinite()) continue;
+      const Vec<Dim> step = share * part.box.diagonal() * normal;
+      const bool before = inside(boundary, loops, Vec<Dim>(at.point - step), solid);
+      const bool behind = inside(boundary, loops, Vec<Dim>(at.point + step), solid);
+      if (before != behind) return before ? 1 : -1;
+    }
   return 0;
 }
 

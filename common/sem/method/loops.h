@@ -20,7 +20,7 @@ struct Loop {
 ///
 /// The rule of the inside. Open parts of a solid are joined end to end, the
 /// closest pair of ends first; where two joined ends differ, be it by
-/// rounding, a straight cap closes the loop (it bounds the inside, it carries
+/// rounding, or a part jumps at a knot, a straight cap closes the loop (it bounds the inside, it carries
 /// no unknowns). A point is inside a loop by parity; inside a solid if the
 /// deepest of the solid's loops that contain it has even depth, so a hole is
 /// empty, an island in a hole is full and loops that cross are united; inside

@@ -116,8 +116,11 @@ PartFit fit_part(const Samples<Dim>& samples, int part, const std::vector<int>& 
     const PseudoInverse inverse = pseudo_inverse(A_k, tolerance);
     MatrixXd c_k = inverse.matrix * rest;
     if (k == 1 && options.fit == FitKind::degree_by_degree && inverse.rank < Dim) {
+      // All of the set counts that is more than the rounding of positions: a thin solid has no better.
+      const double noise = std::max(rounding, 8 * std::numeric_limits<double>::epsilon() *
+                                                  samples.position.cwiseAbs().maxCoeff() / fit.scale);
       const MatrixXd undetermined = MatrixXd::Identity(Dim, Dim) - inverse.matrix * A_k;
-      c_k += undetermined * linear_fit_of_set(samples, set, origin, fit, tolerance);
+      c_k += undetermined * linear_fit_of_set(samples, set, origin, fit, noise);
       fit.borrowed = true;
     }
     rest -= A_k * c_k;

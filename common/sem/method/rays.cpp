@@ -5,6 +5,7 @@
 
 #include "sem/base/error.h"
 #include "sem/base/parallel.h"
+#include "sem/method/edge_hits.h"
 #include "sem/method/line_rules.h"
 
 namespace sem {
@@ -46,13 +47,16 @@ class RayCaster {
     }
   }
 
-  // Fills the ray's hits and intervals.
+  // Fills the ray's hits and intervals. A ray through an edge that parts share is cast a little beside
+  // it: by 1e-8 of the model, then by more.
   void cast(Ray<Dim>& ray, bool& unpaired, double& capped_length) const {
     std::vector<Crossing> crossings;
-    for (int i = 0; i < boundary_.n_parts(); ++i)
-      collect(boundary_.parts[i], i, loop_of_part_[i], -1, ray, crossings);
-    for (int c = 0; c < int(loops_.caps.size()); ++c)
-      collect(loops_.caps[c], boundary_.n_parts() + c, loop_of_cap_[c], c, ray, crossings);
+    const Vec<Dim> origin = ray.origin;
+    double aside = 1e-8 * boundary_.box.diagonal();
+    for (int attempt = 0; attempt < 4 && !collect_all(ray, crossings); ++attempt, aside *= 5)
+      for (int a = 0; a < Dim; ++a)
+        if (a != axis_) ray.origin[a] = origin[a] + aside / (1.7 + 3.1 * a);
+    ray.origin = origin;
     std::stable_sort(ray.hits.begin(), ray.hits.end(),
                      [](const RayHit& a, const RayHit& b) { return a.t < b.t; });
     std::stable_sort(crossings.begin(), crossings.end(),
@@ -62,19 +66,34 @@ class RayCaster {
   }
 
  private:
-  void collect(const PreparedNurbs<Dim - 1, Dim>& shape, int index, int loop, int cap, Ray<Dim>& ray,
+  // False if a hit is in doubt.
+  bool collect_all(Ray<Dim>& ray, std::vector<Crossing>& crossings) const {
+    ray.hits.clear();
+    crossings.clear();
+    bool sure = true;
+    for (int i = 0; i < boundary_.n_parts(); ++i)
+      sure &= collect(boundary_.parts[i], i, loop_of_part_[i], -1, ray, crossings);
+    for (int c = 0; c < int(loops_.caps.size()); ++c)
+      sure &= collect(loops_.caps[c], boundary_.n_parts() + c, loop_of_cap_[c], c, ray, crossings);
+    return sure;
+  }
+
+  bool collect(const PreparedNurbs<Dim - 1, Dim>& shape, int index, int loop, int cap, Ray<Dim>& ray,
                std::vector<Crossing>& crossings) const {
     for (int a = 0; a < Dim; ++a)
       if (a != axis_ && (ray.origin[a] < shape.box.lower[a] || ray.origin[a] > shape.box.upper[a]))
-        return;
+        return true;
     thread_local std::vector<Hit<Dim>> hits;
     hits.clear();
     const double infinity = std::numeric_limits<double>::infinity();
     append_hits(shape, Line<Dim>{ray.origin, Vec<Dim>::Unit(axis_)}, -infinity, infinity, hits);
+    bool sure = true;
     for (const auto& hit : hits) {
+      sure &= !is_in_doubt(shape, hit);
       ray.hits.push_back({hit.t, index, hit.crosses});
       if (hit.crosses) crossings.push_back({hit.t, loop, cap});
     }
+    return sure;
   }
 
   // The first solid whose deepest loop around the present place has even depth, -1: outside.

@@ -63,14 +63,17 @@ class Refiner {
     while (true) {
       double total = 0, error = 0, stuck = 0;
       size_t n_points = 0;
+      bool refinable = false;
       for (const auto& leaf : leaves_) {
         total += leaf.whole.integral.sum();
         (leaf.refinable ? error : stuck) += leaf.error;
         n_points += leaf.whole.weight.size();
+        refinable |= leaf.refinable;
       }
       result.error = total > 0 ? (error + stuck) / total : 0;
       result.reached = error + stuck <= options_.tolerance * total;
-      if (leaves_.empty() || error <= options_.tolerance * total) break;
+      const bool few = int(n_points) < options_.min_points;
+      if (!refinable || (error <= options_.tolerance * total && !few)) break;
       if (int(n_points) > options_.max_points) break;
       refine(error);
     }

@@ -31,6 +31,7 @@ struct ResolvedOptions {
                             ///< both summed over the indicators
   int max_depth = 10;       ///< halvings of a cell per direction
   int max_points = 200000;
+  int min_points = 0;       ///< cells are halved until there are as many, whatever their change
 };
 
 template <int Dim>

@@ -1,5 +1,8 @@
 #include "sem/method/samples.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "sem/base/error.h"
 #include "sem/method/line_rules.h"
 #include "sem/nurbs/basis.h"
@@ -7,15 +10,25 @@
 namespace sem {
 namespace {
 
+// True if the curve may jump at u: the knot is repeated degree + 1 times.
+template <int Dim>
+bool may_jump(const Nurbs<Dim - 1, Dim>& nurbs, int axis, double u) {
+  const auto& knots = nurbs.knots[axis];
+  return std::count(knots.begin(), knots.end(), u) > nurbs.degree[axis];
+}
+
 // Points of all knot spans along one direction. A point shared by two spans is kept once, with both
-// weights.
-LineRule span_points(const std::vector<Interval>& spans, int n, SampleRule points) {
+// weights, but where the part may jump: there each side has its own, the left one as close as it gets.
+template <int Dim>
+LineRule span_points(const Nurbs<Dim - 1, Dim>& nurbs, int axis, int n, SampleRule points) {
   const bool ends = points == SampleRule::gauss_lobatto;
   const LineRule reference = ends ? gauss_lobatto(n) : gauss_legendre(n);
   LineRule rule;
-  for (const auto& [a, b] : spans)
+  for (const auto& [a, b] : spans(nurbs, axis)) {
+    const bool jump = ends && b < domain(nurbs, axis).upper && may_jump<Dim>(nurbs, axis, b);
     for (int k = 0; k < n; ++k) {
-      const double u = ends && k == n - 1 ? b : a + (b - a) * (1 + reference.node[k]) / 2;
+      const double end = jump ? std::nextafter(b, a) : b;
+      const double u = ends && k == n - 1 ? end : a + (b - a) * (1 + reference.node[k]) / 2;
       const double weight = reference.weight[k] * (b - a) / 2;
       if (k == 0 && !rule.node.empty() && rule.node.back() == u) {
         rule.weight.back() += weight;
@@ -24,19 +37,20 @@ LineRule span_points(const std::vector<Interval>& spans, int n, SampleRule point
         rule.weight.push_back(weight);
       }
     }
+  }
   return rule;
 }
 
-// Appends the tensor-product samples of one part.
+// Appends the tensor-product samples of one part, some more than asked for per span and direction.
 template <int Dim>
 void append_part(const Nurbs<Dim - 1, Dim>& nurbs, int part, int first_control,
-                 const SamplingOptions& options, Samples<Dim>& out, std::vector<Vec<Dim>>& position, std::vector<double>& weight) {
+                 const SamplingOptions& options, int n_more, Samples<Dim>& out, std::vector<Vec<Dim>>& position, std::vector<double>& weight) {
   constexpr int param_dim = Dim - 1;
   std::array<LineRule, param_dim> rules;
   int n = 1;
   for (int a = 0; a < param_dim; ++a) {
     const int n_points = options.points_per_span > 0 ? options.points_per_span : nurbs.degree[a] + 1;
-    rules[a] = span_points(spans(nurbs, a), n_points, options.rule);
+    rules[a] = span_points<Dim>(nurbs, a, n_points + n_more, options.rule);
     n *= int(rules[a].node.size());
   }
   BasisValues<param_dim> basis;
@@ -68,6 +82,24 @@ void append_part(const Nurbs<Dim - 1, Dim>& nurbs, int part, int first_control,
   }
 }
 
+// Takes the samples from number `size` on away again.
+template <int Dim>
+void truncate(Samples<Dim>& samples, std::vector<Vec<Dim>>& position, std::vector<double>& weight, size_t size) {
+  samples.row.resize(size + 1);
+  samples.column.resize(samples.row.back());
+  samples.value.resize(samples.row.back());
+  samples.u.resize(size);
+  samples.part.resize(size);
+  position.resize(size);
+  weight.resize(size);
+}
+
+// True if some of the weights from number `begin` on are zero beside the others.
+bool some_vanish(const std::vector<double>& weight, size_t begin) {
+  const auto [least, largest] = std::minmax_element(weight.begin() + begin, weight.end());
+  return *least <= 1e-9 * *largest;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -81,8 +113,13 @@ Samples<Dim> sample_boundary(const Boundary<Dim>& boundary, const SamplingOption
   samples.row.push_back(0);
   for (int i = 0; i < boundary.n_parts(); ++i) {
     samples.first.push_back(samples.size());
-    append_part<Dim>(boundary.parts[i].nurbs, i, boundary.first_control[i], options, samples,
-                     position, weight);
+    for (const int n_more : {0, 2}) {
+      truncate(samples, position, weight, size_t(samples.first.back()));
+      append_part<Dim>(boundary.parts[i].nurbs, i, boundary.first_control[i], options, n_more, samples,
+                       position, weight);
+      // The ends of spans may not count: that leaves too few in directions that collapse there.
+      if (options.points_per_span > 0 || !some_vanish(weight, size_t(samples.first.back()))) break;
+    }
   }
   samples.first.push_back(samples.size());
   samples.position.resize(Dim, samples.size());

@@ -208,7 +208,7 @@ class SurfaceClosest {
   // Lower bound of the distance from a minimum m of its square. If f = q - m v
   // is convex, f >= g.d + (a d_u^2 - 2 c |d_u d_v| + b d_v^2) / 2 with its
   // gradient g at the minimum and bounds a, b, c of its second derivatives:
-  // nothing on the patch is closer than by rounding. 0 if f is not convex.
+  // nothing on the patch is closer than by rounding. Else by what f may fall over the whole patch.
   double bound_from_minimum(const Patch& patch, const Descent& found) {
     const double m = found.jet.offset.squaredNorm();
     const int p = 2 * piece_->degree[0], q = 2 * piece_->degree[1], row = p + 1;
@@ -234,14 +234,18 @@ class SurfaceClosest {
     uu *= p * (p - 1);
     vv *= q * (q - 1);
     uv *= p * q;
-    const double determinant = uu * vv - uv * uv;
-    if (!(uu > 0 && vv > 0 && determinant > 1e-6 * uu * vv)) return 0;
     const double v = found.jet.weight * found.jet.weight;
     Vec<2> g = 2 * v * found.gradient.cwiseProduct(patch.upper - patch.lower).cwiseAbs();
     for (int a = 0; a < 2; ++a)
       if (found.fixed[a]) g[a] = 0;  // f rises from this side of the patch
-    const double slack =
-        0.5 * (vv * g[0] * g[0] + 2 * uv * g[0] * g[1] + uu * g[1] * g[1]) / determinant;
+    // Where the patch is thin along an axis, f's curvature along it may be all rounding: there |d| <= 1.
+    const double flat_u = g[0] + std::max(0.0, -uu) / 2, flat_v = g[1] + std::max(0.0, -vv) / 2;
+    double slack = flat_u + flat_v + uv;
+    if (uu > 0) slack = std::min(slack, flat_v + (g[0] + uv) * (g[0] + uv) / (2 * uu));
+    if (vv > 0) slack = std::min(slack, flat_u + (g[1] + uv) * (g[1] + uv) / (2 * vv));
+    const double determinant = uu * vv - uv * uv;
+    if (uu > 0 && vv > 0 && determinant > 1e-6 * uu * vv)
+      slack = std::min(slack, 0.5 * (vv * g[0] * g[0] + 2 * uv * g[0] * g[1] + uu * g[1] * g[1]) / determinant);
     return std::sqrt(std::max(0.0, m - slack / least_v));
   }
 

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "sem/base/error.h"
 #include "sem/mechanics/loads.h"
 #include "sem/mechanics/quadratic_forms.h"
 #include "sem/nurbs/closest.h"
+#include "sem/nurbs/hits.h"
 
 namespace sem {
 
@@ -229,7 +231,8 @@ class Builder {
       points.normal.col(k) = rule.normal.col(s);
       points.held.col(k) = held_axes(held[k].pin);
       points.weight[k] = samples.weight[s];
-      points.penalty[k] = scene_.clamp_penalty * degree * degree / std::pow(measure, 1.0 / (Dim - 1));
+      const double size = std::min(std::pow(measure, 1.0 / (Dim - 1)), depth_below(samples.position.col(s), rule.normal.col(s)));
+      points.penalty[k] = scene_.clamp_penalty * degree * degree / size;
       points.material.push_back(material_of(part));
       points.pin_column.push_back(first_pin_column_ + held[k].pin);
     }
@@ -265,6 +268,21 @@ class Builder {
       if (!functions.clamp_mixed[s]) functions.on_clamps.row(s).setZero();
     }
     return Pressure<Dim>(std::move(functions), d.quadrature.weight);
+  }
+
+  // How far the solid reaches below a point of its boundary, m: the inverse inequality that the penalty
+  // answers knows no length beyond that.
+  double depth_below(const Vec<Dim>& X, const Vec<Dim>& normal) const {
+    const auto& boundary = model_->discretization.boundary;
+    const double infinity = std::numeric_limits<double>::infinity();
+    double depth = infinity;
+    std::vector<Hit<Dim>> hits;
+    for (const auto& part : boundary.parts) {
+      hits.clear();
+      append_hits(part, Line<Dim>{X, -normal}, boundary.tolerance(), infinity, hits);
+      for (const auto& hit : hits) depth = std::min(depth, hit.t);
+    }
+    return depth;
   }
 
   HeldControl<Dim> spring(int control, int pin) const {
