@@ -11,9 +11,10 @@ namespace sem::baseline {
 namespace {
 
 using Eigen::VectorXd;
-using Gradients = Eigen::Matrix<double, 6, 2>;  // grad N_a in rows
+using Gradients = Eigen::Matrix<double, 6, 2>;    // grad N_a in rows
 using Stiffness = Eigen::Matrix<double, 12, 12>;  // of (u_0x, u_0y, u_1x, ...)
-constexpr int n_points = 3, n_pairs = 78;  // quadrature points; entries of a stiffness' lower triangle
+constexpr int n_points = 3;                       // of the quadrature
+constexpr int n_pairs = 78;                       // entries of a stiffness' lower triangle
 
 // By (xi, eta) on the triangle (0, 0), (1, 0), (0, 1).
 Gradients reference_gradients(double xi, double eta) {
@@ -24,12 +25,8 @@ Gradients reference_gradients(double xi, double eta) {
   return G;
 }
 const std::array<Gradients, n_points> at_points = {  // exact to degree 2, weights 1/3
-    reference_gradients(1. / 6, 1. / 6), reference_gradients(2. / 3, 1. / 6), reference_gradients(1. / 6, 2. / 3)};
-
-double graded(int k, int n, double grading) { return std::pow(double(k) / n, grading); }
-double graded_from_both_ends(int k, int n, double grading) {
-  return 2 * k <= n ? graded(2 * k, n, grading) / 2 : 1 - graded(2 * (n - k), n, grading) / 2;
-}
+    reference_gradients(1. / 6, 1. / 6), reference_gradients(2. / 3, 1. / 6),
+    reference_gradients(1. / 6, 2. / 3)};
 
 class Solver {
  public:
@@ -41,7 +38,8 @@ class Solver {
   void find_pattern();
   void assemble_load();
   Mat<2> deformation_gradient(int e, const Gradients& G) const;
-  double potential_energy(double* strain_energy = nullptr) const;
+  double strain_energy() const;
+  double potential_energy() const { return strain_energy() - load_.dot(u_); }
   void assemble(bool project_psd);
   void scatter(int e, const Stiffness& K);
   bool factorize();
@@ -61,10 +59,15 @@ class Solver {
 };
 
 Solver::Solver(const Mesh& mesh, const Problem& problem)
-    : mesh_(mesh), problem_(problem), u_(VectorXd::Zero(mesh.nodes.size())), load_(u_), internal_(u_) {
+    : mesh_(mesh),
+      problem_(problem),
+      u_(VectorXd::Zero(mesh.nodes.size())),
+      load_(u_),
+      internal_(u_) {
   for (const auto& element : mesh.elements) {
     Mat<2> edges;
-    edges << mesh.nodes.col(element[1]) - mesh.nodes.col(element[0]), mesh.nodes.col(element[2]) - mesh.nodes.col(element[0]);
+    edges << mesh.nodes.col(element[1]) - mesh.nodes.col(element[0]),
+        mesh.nodes.col(element[2]) - mesh.nodes.col(element[0]);
     inverse_.push_back(edges.inverse());
     area_.push_back(edges.determinant() / 2);
   }
@@ -79,7 +82,8 @@ void Solver::hold_sides() {
     if (!problem_.held[side]) continue;
     for (const int a : mesh_.nodes_on(side)) {
       row_[2 * a] = row_[2 * a + 1] = -1;
-      if (problem_.held_displacement) u_.segment<2>(2 * a) = problem_.held_displacement(mesh_.nodes.col(a));
+      if (problem_.held_displacement)
+        u_.segment<2>(2 * a) = problem_.held_displacement(mesh_.nodes.col(a));
     }
   }
   for (int& row : row_)
@@ -109,12 +113,14 @@ void Solver::find_pattern() {
   matrix_.setFromTriplets(entries.begin(), entries.end());
   const int *rows = matrix_.innerIndexPtr(), *columns = matrix_.outerIndexPtr();
   visit_entries([&](int i, int j) {
-    slot_.push_back(j < 0 ? -1 : int(std::lower_bound(rows + columns[j], rows + columns[j + 1], i) - rows));
+    slot_.push_back(
+        j < 0 ? -1 : int(std::lower_bound(rows + columns[j], rows + columns[j + 1], i) - rows));
   });
   cholesky_.analyzePattern(matrix_);
 }
 
-// Integrals of the functions: a third of the area for middles, nothing for corners; Simpson's rule on edges.
+// Integrals of the functions: a third of the area for middles, nothing for corners; Simpson's rule
+// on edges.
 void Solver::assemble_load() {
   const Vec<2> weight = problem_.material.density * problem_.gravity;
   for (size_t e = 0; e < mesh_.elements.size(); ++e)
@@ -124,7 +130,8 @@ void Solver::assemble_load() {
     for (size_t k = 0; k + 2 < nodes.size(); k += 2) {
       const double length = (mesh_.nodes.col(nodes[k + 2]) - mesh_.nodes.col(nodes[k])).norm();
       for (int a = 0; a < 3; ++a)
-        load_.segment<2>(2 * nodes[k + a]) += (a == 1 ? 4 : 1) * length / 6 * problem_.traction[side];
+        load_.segment<2>(2 * nodes[k + a]) +=
+            (a == 1 ? 4 : 1) * length / 6 * problem_.traction[side];
     }
   }
 }
@@ -135,14 +142,14 @@ Mat<2> Solver::deformation_gradient(int e, const Gradients& G) const {
   return F;
 }
 
-double Solver::potential_energy(double* strain_energy) const {
+double Solver::strain_energy() const {
   double energy = 0;
   for (int e = 0; e < int(area_.size()); ++e)
     for (const auto& reference : at_points)
-      energy += area_[e] / n_points *
-                energy_density<2>(problem_.material, deformation_gradient(e, reference * inverse_[e]));
-  if (strain_energy) *strain_energy = energy;
-  return energy - load_.dot(u_);
+      energy +=
+          area_[e] / n_points *
+          energy_density<2>(problem_.material, deformation_gradient(e, reference * inverse_[e]));
+  return energy;
 }
 
 // grad N_a . dP/dF . grad N_b for b <= a.
@@ -164,7 +171,8 @@ void Solver::assemble(bool project) {
       const Mat<2> F = deformation_gradient(e, G);
       const double v = area_[e] / n_points;
       const Mat<2> P = v * first_piola<2>(problem_.material, F);
-      for (int a = 0; a < 6; ++a) internal_.segment<2>(2 * mesh_.elements[e][a]) += P * G.row(a).transpose();
+      for (int a = 0; a < 6; ++a)
+        internal_.segment<2>(2 * mesh_.elements[e][a]) += P * G.row(a).transpose();
       StressDerivative<2> C = stress_derivative<2>(problem_.material, F);
       if (project) C = project_to_psd<2>(C);
       add_stiffness(G, v * C, K);
@@ -219,31 +227,41 @@ Solution Solver::newton() {
     if (solution.converged || !factorize()) break;
     if (!line_search(cholesky_.solve(residual_))) break;
   }
-  potential_energy(&solution.energy);
+  solution.energy = strain_energy();
   solution.displacement = u_.reshaped(2, mesh_.nodes.cols());
   return solution;
 }
 
 }  // namespace
 
+double graded_place(int k, int n, double grading, bool from_both_ends) {
+  if (!from_both_ends) return std::pow(double(k) / n, grading);
+  return 2 * k <= n ? std::pow(2. * k / n, grading) / 2
+                    : 1 - std::pow(2. * (n - k) / n, grading) / 2;
+}
+
 std::vector<int> Mesh::nodes_on(Side side) const {
   const bool along_x = side == bottom || side == top;
   std::vector<int> result;
   for (int k = 0; k <= 2 * (along_x ? n_x : n_y); ++k)
-    result.push_back(along_x ? node(k, side == top ? 2 * n_y : 0) : node(side == right ? 2 * n_x : 0, k));
+    result.push_back(along_x ? node(k, side == top ? 2 * n_y : 0)
+                             : node(side == right ? 2 * n_x : 0, k));
   return result;
 }
 
-Mesh quadrilateral_mesh(const Corners& corners, int n_x, int n_y, double grading, bool to_both_sides) {
+Mesh quadrilateral_mesh(const Corners& corners, int n_x, int n_y, double grading,
+                        bool to_both_sides) {
   Mesh mesh{n_x, n_y, Points<2>(2, (2 * n_x + 1) * (2 * n_y + 1)), {}};
   const auto corner_of_cell = [&](int i, int j) -> Vec<2> {
-    const double s = to_both_sides ? graded_from_both_ends(i, n_x, grading) : graded(i, n_x, grading);
-    const double t = graded_from_both_ends(j, n_y, grading);
-    return (1 - t) * ((1 - s) * corners[0] + s * corners[1]) + t * ((1 - s) * corners[3] + s * corners[2]);
+    const double s = graded_place(i, n_x, grading, to_both_sides),
+                 t = graded_place(j, n_y, grading, true);
+    return (1 - t) * ((1 - s) * corners[0] + s * corners[1]) +
+           t * ((1 - s) * corners[3] + s * corners[2]);
   };
   for (int j = 0; j <= 2 * n_y; ++j)
     for (int i = 0; i <= 2 * n_x; ++i)  // in the middle of two corners, or of one with itself
-      mesh.nodes.col(mesh.node(i, j)) = (corner_of_cell(i / 2, j / 2) + corner_of_cell((i + 1) / 2, (j + 1) / 2)) / 2;
+      mesh.nodes.col(mesh.node(i, j)) =
+          (corner_of_cell(i / 2, j / 2) + corner_of_cell((i + 1) / 2, (j + 1) / 2)) / 2;
   for (int j = 0; j < 2 * n_y; j += 2)
     for (int i = 0; i < 2 * n_x; i += 2) {
       const auto at = [&](int k, int l) { return mesh.node(i + k, j + l); };

@@ -39,12 +39,14 @@ Vec<2> cook_corner(const Mesh& mesh, double nu) {
 
 }  // namespace
 
-TEST_CASE("patch test: an affine displacement of all sides is that of all nodes, for every material") {
+TEST_CASE(
+    "patch test: an affine displacement of all sides is that of all nodes, for every material") {
   Mat<2> A;
   A << 0.02, 0.01, -0.015, 0.03;
   const Mesh mesh = quadrilateral_mesh(cook, 3, 4, 1.5);
-  for (const auto model : {MaterialModel::linear, MaterialModel::stvk, MaterialModel::corotated,
-                           MaterialModel::neo_log, MaterialModel::neo_ref, MaterialModel::neo_iso}) {
+  for (const auto model :
+       {MaterialModel::linear, MaterialModel::stvk, MaterialModel::corotated,
+        MaterialModel::neo_log, MaterialModel::neo_ref, MaterialModel::neo_iso}) {
     CAPTURE(name(model));
     Problem problem;
     problem.material = {model, 1e5, 0.3, 0};
@@ -54,7 +56,8 @@ TEST_CASE("patch test: an affine displacement of all sides is that of all nodes,
     CHECK(solution.converged);
     CHECK((solution.displacement - A * mesh.nodes).norm() < 1e-9 * mesh.nodes.norm());
     const Mat<2> F = Mat<2>::Identity() + A;
-    CHECK(solution.energy == doctest::Approx(1440 * energy_density<2>(problem.material, F)));  // area 1440 m^2
+    CHECK(solution.energy ==
+          doctest::Approx(1440 * energy_density<2>(problem.material, F)));  // area 1440 m^2
   }
 }
 
@@ -63,24 +66,33 @@ TEST_CASE("elements fill the quadrilateral, anticlockwise, and their edges are s
   double area = 0;
   for (const auto& element : mesh.elements) {
     Mat<2> edges;
-    edges << mesh.nodes.col(element[1]) - mesh.nodes.col(element[0]), mesh.nodes.col(element[2]) - mesh.nodes.col(element[0]);
+    edges << mesh.nodes.col(element[1]) - mesh.nodes.col(element[0]),
+        mesh.nodes.col(element[2]) - mesh.nodes.col(element[0]);
     CHECK(edges.determinant() > 0);
     area += edges.determinant() / 2;
     for (int a = 0; a < 3; ++a)
-      CHECK((mesh.nodes.col(element[3 + a]) - (mesh.nodes.col(element[a]) + mesh.nodes.col(element[(a + 1) % 3])) / 2).norm() < 1e-12);
+      CHECK((mesh.nodes.col(element[3 + a]) -
+             (mesh.nodes.col(element[a]) + mesh.nodes.col(element[(a + 1) % 3])) / 2)
+                .norm() < 1e-12);
   }
   CHECK(area == doctest::Approx(1440));
 }
 
-TEST_CASE("cantilever: the tip's error is that of another program's quadratic triangles, of order h^1.4") {
-  // Truth: graded finite elements of high degree. Errors of the other program's quadratic triangles.
+TEST_CASE(
+    "cantilever: the tip's error is that of another program's quadratic triangles, of order "
+    "h^1.4") {
+  // Truth: graded finite elements of high degree. Errors of the other program's quadratic
+  // triangles.
   double last = 0;
-  for (const auto& [n, n_unknowns, expected] : {std::tuple(4, 594, 4e-3), std::tuple(8, 2210, 1.5e-3), std::tuple(16, 8514, 5.6e-4)}) {
+  for (const auto& [n, n_unknowns, expected] :
+       {std::tuple(4, 594, 4e-3), std::tuple(8, 2210, 1.5e-3), std::tuple(16, 8514, 5.6e-4)}) {
     const Mesh mesh = quadrilateral_mesh(beam, 4 * n, n);
     CHECK(mesh.nodes.size() == n_unknowns);
     const double error = std::abs(tip(mesh, hanging_beam(10))[1] / -0.3684452 - 1);
     CHECK(error == doctest::Approx(expected).epsilon(0.03));
-    if (last > 0) CHECK(std::log2(last / error) == doctest::Approx(1.4).epsilon(0.1));  // the clamp's corners limit it
+    if (last > 0)
+      CHECK(std::log2(last / error) ==
+            doctest::Approx(1.4).epsilon(0.1));  // the clamp's corners limit it
     last = error;
   }
 }
@@ -90,13 +102,16 @@ TEST_CASE("cantilever: a graded grid finds tip and energy at all loads to 4e-4")
     double density, ux, uy, energy;
   };
   const Mesh mesh = quadrilateral_mesh(beam, 48, 12, 2);
-  for (const Truth& truth : {Truth{1, -1.774756e-4, -0.03703440, 0.3085726}, Truth{10, -0.01760132, -0.3684452, 30.65339},
-                             Truth{20, -0.0687034, -0.725788, 120.2350}, Truth{40, -0.25118, -1.37317, 447.63}}) {
+  for (const Truth& truth :
+       {Truth{1, -1.774756e-4, -0.03703440, 0.3085726},
+        Truth{10, -0.01760132, -0.3684452, 30.65339}, Truth{20, -0.0687034, -0.725788, 120.2350},
+        Truth{40, -0.25118, -1.37317, 447.63}}) {
     CAPTURE(truth.density);
     const Vec<2> u = tip(mesh, hanging_beam(truth.density));
     CHECK(u[0] == doctest::Approx(truth.ux).epsilon(4e-4));
     CHECK(u[1] == doctest::Approx(truth.uy).epsilon(4e-4));
-    CHECK(solve_static(mesh, hanging_beam(truth.density)).energy == doctest::Approx(truth.energy).epsilon(4e-4));
+    CHECK(solve_static(mesh, hanging_beam(truth.density)).energy ==
+          doctest::Approx(truth.energy).epsilon(4e-4));
   }
 }
 
