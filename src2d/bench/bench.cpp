@@ -96,6 +96,7 @@ void print_json(const std::vector<KernelTime>& kernels, const std::vector<SceneT
   for (const auto& kernel : kernels) {
     Json entry{{"name", kernel.name}, {"ns", 1e9 * kernel.seconds}};
     if (kernel.textbook > 0) entry["textbook_ns"] = 1e9 * kernel.textbook;
+    if (kernel.target > 0) entry["target_ns"] = 1e9 * kernel.target;
     json["kernels"].push_back(entry);
   }
   for (const auto& scene : scenes) {
@@ -114,9 +115,11 @@ void print_json(const std::vector<KernelTime>& kernels, const std::vector<SceneT
 
 void print_tables(const std::vector<KernelTime>& kernels, const std::vector<SceneTime>& scenes) {
   std::printf("sem %s, %s build, %s\n\n", version, build_type, compiler);
-  std::printf("%-40s %10s %12s %7s\n", "geometry kernel", "ns/call", "textbook ns", "ratio");
+  std::printf("%-40s %10s %10s %12s %7s\n", "geometry kernel", "ns/call", "target ns", "textbook ns",
+              "ratio");
   for (const auto& kernel : kernels) {
     std::printf("%-40s %10.1f", kernel.name.c_str(), 1e9 * kernel.seconds);
+    kernel.target > 0 ? std::printf(" %10.0f", 1e9 * kernel.target) : std::printf(" %10s", "");
     if (kernel.textbook > 0)
       std::printf(" %12.1f %7.2f", 1e9 * kernel.textbook, kernel.seconds / kernel.textbook);
     std::printf("\n");

@@ -1,6 +1,7 @@
 #include "kernels.h"
 
 #include <cmath>
+#include <map>
 #include <random>
 #include <stdexcept>
 
@@ -76,16 +77,33 @@ void require_equal(double difference) {
 
 constexpr int n_evaluations = 4096, n_queries = 1024, n_repeats = 25;
 
+// Aims for the rows that have one, s.
+double target_of(const std::string& name) {
+  static const std::map<std::string, double> targets = {
+      {"curve point, 1st derivative", 45e-9},
+      {"curve point, prepared", 3e-9},
+      {"curve point, 1st derivative, prepared", 5e-9},
+      {"curve, all hits of a line", 100e-9},
+      {"curve, closest point", 300e-9},
+      {"surface point, 1st derivatives", 95e-9},
+      {"surface point, prepared", 6e-9},
+      {"surface point, 1st derivatives, prepared", 12e-9},
+      {"surface, all hits of a line", 1e-6},
+      {"surface, closest point", 2e-6}};
+  const auto found = targets.find(name);
+  return found == targets.end() ? 0 : found->second;
+}
+
 template <class Own>
 KernelTime measure(const char* name, int n, int n_passes, const Own& own) {
-  return {name, seconds_per_call(n, n_passes, own)[0]};
+  return {name, seconds_per_call(n, n_passes, own)[0], 0, target_of(name)};
 }
 
 template <class Own, class Textbook>
 KernelTime compare(const char* name, const Own& own, const Textbook& textbook) {
   const auto [seconds, textbook_seconds] =
       seconds_per_call(n_evaluations, n_repeats, own, textbook);
-  return {name, seconds, textbook_seconds};
+  return {name, seconds, textbook_seconds, target_of(name)};
 }
 
 // What the textbook's basis functions are written to: bicubic at most.
@@ -96,6 +114,7 @@ struct TextbookBasis {
 
 void time_curve(Random& random, std::vector<KernelTime>& times) {
   const Nurbs<1, 2> curve = sample_curve(random);
+  const PreparedNurbs<1, 2> prepared = prepare(curve);
   std::vector<Param<1>> u(n_evaluations);
   for (auto& value : u) value = random.in<1>(0, 1);
   BasisValues<1> basis;
@@ -106,6 +125,9 @@ void time_curve(Random& random, std::vector<KernelTime>& times) {
     const auto d = derivatives(curve, value, 1);
     require_equal((point(curve, value) - X).norm());
     require_equal((d.first - slope).norm() / slope.norm());
+    const auto fast = point_slopes(prepared, value);
+    require_equal((fast.point - X).norm());
+    require_equal((fast.first - slope).norm() / slope.norm());
     textbook::curve_basis(curve, value[0], book.column, book.R, book.R_u);
     evaluate_basis(curve, value, 1, basis);
     for (int k = 0; k < 4; ++k) {
@@ -128,6 +150,19 @@ void time_curve(Random& random, std::vector<KernelTime>& times) {
         return textbook::curve(curve, u[i][0], &slope).sum() + slope.sum();
       }));
   times.push_back(compare(
+      "curve point, prepared", [&](int i) { return point(prepared, u[i]).sum(); },
+      [&](int i) { return textbook::curve(curve, u[i][0]).sum(); }));
+  times.push_back(compare(
+      "curve point, 1st derivative, prepared",
+      [&](int i) {
+        const auto d = point_slopes(prepared, u[i]);
+        return d.point.sum() + d.first.sum();
+      },
+      [&](int i) {
+        Vec<2> slope;
+        return textbook::curve(curve, u[i][0], &slope).sum() + slope.sum();
+      }));
+  times.push_back(compare(
       "curve basis, 1st derivative",
       [&](int i) {
         evaluate_basis(curve, u[i], 1, basis);
@@ -143,7 +178,6 @@ void time_curve(Random& random, std::vector<KernelTime>& times) {
         return d.point[0] + d.first(0, 0) + d.second[0][0];
       }));
 
-  const PreparedNurbs<1, 2> prepared = prepare(curve);
   std::vector<Vec<2>> from(n_queries), to(n_queries);
   for (int i = 0; i < n_queries; ++i)
     from[i] = random.in<2>(-1.3, 1.3), to[i] = random.in<2>(-1.3, 1.3);
@@ -159,6 +193,7 @@ void time_curve(Random& random, std::vector<KernelTime>& times) {
 
 void time_surface(Random& random, std::vector<KernelTime>& times) {
   const Nurbs<2, 3> surface = sample_surface(random);
+  const PreparedNurbs<2, 3> prepared = prepare(surface);
   std::vector<Param<2>> u(n_evaluations);
   for (auto& value : u) value = random.in<2>(0, 1);
   BasisValues<2> basis;
@@ -169,6 +204,9 @@ void time_surface(Random& random, std::vector<KernelTime>& times) {
     const auto d = derivatives(surface, value, 1);
     require_equal((point(surface, value) - X).norm());
     require_equal((d.first - first).norm() / first.norm());
+    const auto fast = point_slopes(prepared, value);
+    require_equal((fast.point - X).norm());
+    require_equal((fast.first - first).norm() / first.norm());
     textbook::surface_basis(surface, value, book.column, book.R, book.R_u, book.R_v);
     evaluate_basis(surface, value, 1, basis);
     for (int k = 0; k < 16; ++k) {
@@ -192,6 +230,19 @@ void time_surface(Random& random, std::vector<KernelTime>& times) {
         return textbook::surface(surface, u[i], &first).sum() + first.sum();
       }));
   times.push_back(compare(
+      "surface point, prepared", [&](int i) { return point(prepared, u[i]).sum(); },
+      [&](int i) { return textbook::surface(surface, u[i]).sum(); }));
+  times.push_back(compare(
+      "surface point, 1st derivatives, prepared",
+      [&](int i) {
+        const auto d = point_slopes(prepared, u[i]);
+        return d.point.sum() + d.first.sum();
+      },
+      [&](int i) {
+        Eigen::Matrix<double, 3, 2> first;
+        return textbook::surface(surface, u[i], &first).sum() + first.sum();
+      }));
+  times.push_back(compare(
       "surface basis, 1st derivatives",
       [&](int i) {
         evaluate_basis(surface, u[i], 1, basis);
@@ -207,7 +258,6 @@ void time_surface(Random& random, std::vector<KernelTime>& times) {
         return d.point[0] + d.first(0, 0) + d.second[0][0];
       }));
 
-  const PreparedNurbs<2, 3> prepared = prepare(surface);
   std::vector<Vec<3>> from(n_queries), to(n_queries);
   for (int i = 0; i < n_queries; ++i) from[i] = random.in<3>(-1, 1), to[i] = random.in<3>(-1, 1);
   std::vector<Hit<3>> hits;

@@ -10,6 +10,7 @@ struct KernelTime {
   std::string name;
   double seconds = 0;   ///< a call
   double textbook = 0;  ///< the same by textbook.h, s; 0: there is no textbook version
+  double target = 0;    ///< what this project aims at on a quiet machine, s; 0: nothing
 };
 
 /// Evaluation, hits and closest points at random places of a cubic rational

@@ -193,7 +193,7 @@ BlendedField<Dim> blended_field(const Points<Dim>& position, const VectorXd& vol
     }
   };
   set_columns();
-  MatrixXd G = gram_matrix(blended_map(position, weights, field.origins, field.projection, int(column_of.size()), false),
+  MatrixXd G = gradient_gram_matrix(blended_map(position, weights, field.origins, field.projection, int(column_of.size()), false),
                            volume, 1);
   std::vector<int> chosen = independent_rows(G, 0, tolerance);
   std::sort(chosen.begin(), chosen.end());

@@ -19,8 +19,9 @@ struct AxisBasis {
 // Cox-de Boor; derivatives from the functions of one and two degrees less.
 // Those appear on the way divided by the lengths of their supports. The
 // lengths are inverted apart, so that the recurrence does not wait for it.
-template <int Order>
-void evaluate_axis(const std::vector<double>& knots, int degree, double u, AxisBasis& out) {
+// `degree`: an int, or a constant for loops without branches.
+template <int Order, class Degree>
+void evaluate_axis(const std::vector<double>& knots, Degree degree, double u, AxisBasis& out) {
   const int k = detail::find_span(knots, degree, u);
   u = std::clamp(u, knots[degree], knots[knots.size() - degree - 1]);
   const double* after = knots.data() + k + 1;  // after[r], before[-r] surround the span
@@ -54,6 +55,16 @@ void evaluate_axis(const std::vector<double>& knots, int degree, double u, AxisB
     differences(lower, degree - 1, degree - 1, share);
     for (int r = 0; r < degree; ++r) share[r] *= inverse[r];
     differences(share, degree, degree, out.value[2]);
+  }
+}
+
+template <int Order>
+void evaluate_usual_axis(const std::vector<double>& knots, int degree, double u, AxisBasis& out) {
+  switch (degree) {
+    case 1: return evaluate_axis<Order>(knots, std::integral_constant<int, 1>(), u, out);
+    case 2: return evaluate_axis<Order>(knots, std::integral_constant<int, 2>(), u, out);
+    case 3: return evaluate_axis<Order>(knots, std::integral_constant<int, 3>(), u, out);
+    default: return evaluate_axis<Order>(knots, degree, u, out);
   }
 }
 
@@ -94,7 +105,7 @@ struct TensorBasis {
   TensorBasis(const Nurbs<ParamDim, Dim>& nurbs, const Param<ParamDim>& u) : degree(nurbs.degree) {
     for (int a = 0; a < ParamDim; ++a) {
       n_controls[a] = n_control(nurbs, a);
-      evaluate_axis<Order>(nurbs.knots[a], degree[a], u[a], axis[a]);
+      evaluate_usual_axis<Order>(nurbs.knots[a], degree[a], u[a], axis[a]);
     }
   }
 

@@ -24,7 +24,9 @@ struct ClosestPoint {
 ///
 /// If no point is within `cutoff`, the distance may be returned as infinity,
 /// with NaN for u and point. At a jump of the part, u is the knot and point
-/// the limit that is closer. Does not allocate in the steady state.
+/// the limit that is closer. Where the distance has a regular minimum inside
+/// a piece, u is as well known as rounding of the offset's slope allows, not
+/// only to the square root of the distance's. Does not allocate in the steady state.
 template <int Dim>
 ClosestPoint<Dim> closest_point(const PreparedNurbs<Dim - 1, Dim>& part, const Vec<Dim>& X,
                                 double cutoff = std::numeric_limits<double>::infinity());

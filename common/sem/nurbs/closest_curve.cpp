@@ -3,8 +3,9 @@
 
 #include "sem/nurbs/bernstein.h"
 #include "sem/nurbs/closest.h"
+#include "sem/nurbs/foot_cells.h"
 
-// Pieces whose box is farther than the best point found are skipped. On the
+// Cells whose chord is farther than the best point found are skipped. On the
 // others, all local minima of the distance are found: the roots of the
 // polynomial `foot` where it changes from - to +, isolated by Descartes' rule
 // of signs in Bernstein form.
@@ -24,7 +25,7 @@ struct Stretch {
 class CurveClosest {
  public:
   CurveClosest(const PreparedNurbs<1, 2>& part, const Vec<2>& X, double cutoff)
-      : part_(part), X_(X), least_(cutoff), size_(part.box.diagonal()) {
+      : part_(part), feet_(*part.feet), X_(X), least_(cutoff), size_(part.box.diagonal()) {
     const auto& pieces = part.pieces;
     near_u_ = 1e-6 * (pieces.back().upper[0] - pieces.front().lower[0]);
     best_.u[0] = best_.point[0] = best_.point[1] = std::numeric_limits<double>::quiet_NaN();
@@ -32,56 +33,59 @@ class CurveClosest {
   }
 
   ClosestPoint<2> run() {
-    const auto& pieces = part_.pieces;
-    // A first bound from the joints, and the most promising piece.
-    double least_square = least_ * least_, least_bound = std::numeric_limits<double>::infinity();
-    const BezierPiece<1, 2>* promising = nullptr;
-    for (const auto& piece : pieces) {
-      least_square = std::min(least_square, (piece.points.col(0) - X_).squaredNorm());
-      const double bound = square_to_box(piece.box);
-      if (bound < least_bound) {
-        least_bound = bound;
-        promising = &piece;
-      }
-    }
-    least_ = std::sqrt(least_square);
+    const auto& chords = feet_.chords;
+    thread_local std::vector<Lanes> scratch;
+    if (scratch.size() < size_t(chords.n / 4)) scratch.resize(chords.n / 4);
+    double* const square = scratch[0].value;
+    // Bounds from the start points of the cells and from the chord that is closest.
+    int nearest;
+    const double to_start = detail::kernels->chord_squares(chords, X_[0], X_[1], square, &nearest);
+    const double bound = std::min(std::sqrt(to_start) * (1 + 1e-15),
+                                  std::sqrt(square[nearest]) + chords.reach[nearest]);
+    if (bound < least_) least_ = bound;
     limit();
-    if (promising && least_bound <= limit_square_) search(*promising);
-    for (const auto& piece : pieces)
-      if (&piece != promising && square_to_box(piece.box) <= limit_square_) search(piece);
+    const int promising = std::min(nearest, int(feet_.cells.size()) - 1);
+    if (near(promising, square)) search(feet_.cells[promising]);
+    for (int first = 0; first < chords.n; first += 64)
+      for (auto bits = detail::kernels->near_chords(chords, square, least_ + tie_, first);
+           bits != 0; bits &= bits - 1) {
+        const int k = first + __builtin_ctzll(bits);
+        if (k != promising && k < int(feet_.cells.size()) && near(k, square))
+          search(feet_.cells[k]);
+      }
     return best_;
   }
 
  private:
-  double square_to_box(const Box<2>& box) const {
-    const double x = std::max({box.lower[0] - X_[0], 0.0, X_[0] - box.upper[0]});
-    const double y = std::max({box.lower[1] - X_[1], 0.0, X_[1] - box.upper[1]});
-    return x * x + y * y;
+  struct alignas(32) Lanes {
+    double value[4];
+  };
+
+  bool near(int cell, const double* square) const {
+    const double distance = least_ + tie_ + feet_.chords.reach[cell];
+    return square[cell] <= distance * distance;
   }
 
-  void limit() {
-    tie_ = 1e-14 * (least_ + size_);
-    limit_square_ = (least_ + tie_) * (least_ + tie_);
-  }
+  void limit() { tie_ = 1e-14 * (least_ + size_); }
 
-  void search(const BezierPiece<1, 2>& piece) {
-    Stretch stack[max_depth + 2];
-    Stretch& whole = stack[0];
-    const int degree = int(piece.foot.cols()) - 1;
+  void search(const detail::FootCell& cell) {
+    const BezierPiece<1, 2>& piece = part_.pieces[cell.piece];
     const Vec<2> R = X_ - 0.5 * (piece.box.lower + piece.box.upper);
     const double r = std::abs(R[0]) + std::abs(R[1]);
-    double scale = 0;
+    const double rounding = 4e-16 * (cell.largest + r * cell.largest_slope);
+    if (cell.form.rows && search_simple(cell, R, rounding)) return;
+    Stretch stack[max_depth + 2];
+    Stretch& whole = stack[0];
+    const int degree = int(cell.foot.cols()) - 1;
     for (int k = 0; k <= degree; ++k) {
-      const double* f = piece.foot.data() + 3 * k;
+      const double* f = cell.foot.data() + 3 * k;
       whole.g[k] = f[0] - (f[1] * R[0] + f[2] * R[1]);
-      scale = std::max(scale, std::abs(f[0]) + r * (std::abs(f[1]) + std::abs(f[2])));
     }
-    whole.a = 0;
-    whole.b = 1;
+    whole.a = cell.a;
+    whole.b = cell.b;
     whole.depth = 0;
-    const double rounding = 4e-16 * scale;
-    if (whole.g[0] >= -rounding) add(piece, 0);
-    if (whole.g[degree] <= rounding) add(piece, 1);
+    if (cell.a == 0 && whole.g[0] >= -rounding) add(piece, 0);
+    if (cell.b == 1 && whole.g[degree] <= rounding) add(piece, 1);
     for (int n = 1; n > 0;) {
       if (finish(piece, stack[n - 1], degree, rounding)) {
         --n;
@@ -95,6 +99,26 @@ class CurveClosest {
       left.depth = ++right.depth;
       ++n;
     }
+  }
+
+  // The usual case: the coefficients change from - to + once, or never. Otherwise false.
+  bool search_simple(const detail::FootCell& cell, const Vec<2>& R, double rounding) {
+    const BezierPiece<1, 2>& piece = part_.pieces[cell.piece];
+    const auto [positive, negative] = detail::kernels->foot_signs(cell.form, R[0], R[1], rounding);
+    const unsigned last = 1u << cell.form.degree;
+    const bool falls = positive == 0 && negative != 0, rises = negative == 0 && positive != 0;
+    // Both ends off zero: no second root there.
+    const bool once = (negative & 1) && (positive & last) && negative < (positive & -positive);
+    if (!falls && !rises && !once) return false;
+    if (once) {
+      double s = 0.5;
+      if (!detail::kernels->foot_root(cell.form, R[0], R[1], s)) return false;
+      add(piece, cell.a + s * (cell.b - cell.a));
+    }
+    // The ends of the piece, and where a cell begins or ends at a minimum to rounding.
+    if (!(negative & 1) && (cell.a == 0 || (rises && !(positive & 1)))) add(piece, cell.a);
+    if (!(positive & last) && (cell.b == 1 || (falls && !(negative & last)))) add(piece, cell.b);
+    return true;
   }
 
   // Adds the local minima of a stretch; false if it has to be split.
@@ -112,7 +136,8 @@ class CurveClosest {
       return true;
     }
     if (n_changes == 0 || (n_changes == 1 && first_sign > 0)) {
-      // A minimum where the stretch was split off its neighbour: - here and + there, or the reverse.
+      // A minimum where the stretch was split off its neighbour: - here and + there, or the
+      // reverse.
       if (first_sign > 0 && std::abs(x.g[0]) <= rounding) add(piece, x.a);
       if (sign < 0 && std::abs(x.g[degree]) <= rounding) add(piece, x.b);
       return true;
@@ -145,9 +170,10 @@ class CurveClosest {
   }
 
   const PreparedNurbs<1, 2>& part_;
+  const detail::FootCells& feet_;
   const Vec<2> X_;
   double least_;  // upper bound of the distance
-  double size_, tie_ = 0, limit_square_ = 0, near_u_ = 0;
+  double size_, tie_ = 0, near_u_ = 0;
   ClosestPoint<2> best_;
   double scratch_[max_coefficients];
 };

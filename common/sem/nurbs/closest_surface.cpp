@@ -3,6 +3,7 @@
 
 #include "sem/nurbs/bernstein.h"
 #include "sem/nurbs/closest.h"
+#include "sem/nurbs/kernels.h"
 
 // Branch and bound on patches. A first lower bound of the distance comes from a
 // plane that the convex hull lies beyond. The squared distance is q / v, q =
@@ -29,7 +30,7 @@ struct Scratch {
   std::vector<Vec4> coefficients;  // of the whole piece, then of the stack
   std::vector<Patch> patches;
   std::vector<Vec4> scaled, square;
-  std::vector<double> f;
+  std::vector<double> f, q, v;  // of a patch; q and v times the binomials
   std::vector<std::pair<double, int>> order;
 };
 
@@ -53,6 +54,8 @@ class SurfaceClosest {
     std::sort(order.begin(), order.end());
     for (const auto& [bound, k] : order)
       if (!hopeless(bound)) search(part_.pieces[k]);
+    for (int step = 0; step < 3 && polish(); ++step) {
+    }
     return best_;
   }
 
@@ -136,17 +139,8 @@ class SurfaceClosest {
 
   // True if no point of the patch is better than the best one now known.
   bool finish(const Patch& patch, const Vec4* c) {
-    square_distance(c);
-    const auto& square = scratch_.square;
-    double least = std::numeric_limits<double>::infinity();
     int where = 0;
-    for (size_t i = 0; i < square.size(); ++i) {
-      const double ratio = square[i].head<3>().sum() / square[i][3];
-      if (ratio < least) {
-        least = ratio;
-        where = int(i);
-      }
-    }
+    const double least = square_distance(c, where);
     if (hopeless(std::sqrt(std::max(0.0, least)))) return true;
     const int p = 2 * piece_->degree[0], q = 2 * piece_->degree[1];
     const Vec<2> share(double(where % (p + 1)) / p, double(where / (p + 1)) / q);
@@ -154,18 +148,28 @@ class SurfaceClosest {
     return hopeless(bound_from_minimum(patch, descend(start, patch)));
   }
 
-  // Coefficients of q (first three summed) and v, of degree (2p, 2q) and times
-  // its binomials.
-  void square_distance(const Vec4* c) {
+  // Coefficients of q and v, of degree (2p, 2q) and times its binomials; the least q_i / v_i.
+  double square_distance(const Vec4* c, int& where) {
     const int p = piece_->degree[0], q = piece_->degree[1], row = 2 * p + 1;
     const double* Bp = detail::binomials(p);
     const double* Bq = detail::binomials(q);
+    const size_t n_squares = size_t(row) * (2 * q + 1);
+    scratch_.q.resize(n_squares);
+    scratch_.v.resize(n_squares);
+    if (part_.power) {  // degree <= 12
+      alignas(32) double scaled[4 * 13 * 13];
+      for (int j = 0, a = 0; j <= q; ++j)
+        for (int i = 0; i <= p; ++i, ++a)
+          Eigen::Map<Vec4, Eigen::Aligned16>(scaled + 4 * a) = Bp[i] * Bq[j] * c[a];
+      return detail::kernels->square_distance(scaled, p, q, scratch_.q.data(), scratch_.v.data(),
+                                              &where);
+    }
     auto& scaled = scratch_.scaled;
     auto& square = scratch_.square;
     scaled.resize(n_);
     for (int j = 0, a = 0; j <= q; ++j)
       for (int i = 0; i <= p; ++i, ++a) scaled[a] = Bp[i] * Bq[j] * c[a];
-    square.assign(size_t(row) * (2 * q + 1), Vec4::Zero());
+    square.assign(n_squares, Vec4::Zero());
     for (int j = 0, a = 0; j <= q; ++j)
       for (int i = 0; i <= p; ++i, ++a) {
         square[2 * (j * row + i)] += scaled[a].cwiseProduct(scaled[a]);
@@ -174,6 +178,17 @@ class SurfaceClosest {
           for (int k = l == j ? i + 1 : 0; k <= p; ++k, ++b)
             square[(j + l) * row + i + k] += twice.cwiseProduct(scaled[b]);
       }
+    double least = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < n_squares; ++i) {
+      scratch_.q[i] = square[i].head<3>().sum();
+      scratch_.v[i] = square[i][3];
+      const double ratio = scratch_.q[i] / scratch_.v[i];
+      if (ratio < least) {
+        least = ratio;
+        where = int(i);
+      }
+    }
+    return least;
   }
 
   struct Jet {
@@ -199,15 +214,14 @@ class SurfaceClosest {
     const int p = 2 * piece_->degree[0], q = 2 * piece_->degree[1], row = p + 1;
     const double* Bp = detail::binomials(p);
     const double* Bq = detail::binomials(q);
-    const auto& square = scratch_.square;
     auto& f = scratch_.f;
-    f.resize(square.size());
+    f.resize(scratch_.q.size());
     double least_v = std::numeric_limits<double>::infinity();
     for (int j = 0, i = 0; j <= q; ++j)
       for (int k = 0; k <= p; ++k, ++i) {
         const double inverse = 1 / (Bp[k] * Bq[j]);
-        f[i] = (square[i].head<3>().sum() - m * square[i][3]) * inverse;
-        least_v = std::min(least_v, square[i][3] * inverse);
+        f[i] = (scratch_.q[i] - m * scratch_.v[i]) * inverse;
+        least_v = std::min(least_v, scratch_.v[i] * inverse);
       }
     double uu = std::numeric_limits<double>::infinity(), vv = uu, uv = 0;
     for (int j = 0; j <= q; ++j)
@@ -231,13 +245,27 @@ class SurfaceClosest {
     return std::sqrt(std::max(0.0, m - slack / least_v));
   }
 
-  Jet evaluate(const Vec<2>& s) const {
+  // w (C - X), w and their derivatives u, v, uu, uv, vv.
+  void evaluate_powers(const Vec<2>& s, Vec4* A) const {
+    const detail::PowerForm& power = *part_.power;
+    const double* coefficients = power.coefficient + (piece_ - part_.pieces.data()) * power.stride;
+    const double local[2] = {2 * s[0] - 1, 2 * s[1] - 1};
+    alignas(32) double jets[24];
+    detail::kernels->surface_second_jets(power, coefficients, local, jets);
+    const Vec<3> R = X_ - Eigen::Map<const Vec<3>>(coefficients);
+    constexpr double scale[6] = {1, 2, 2, 4, 4, 4};
+    for (int m = 0; m < 6; ++m) {
+      A[m] = scale[m] * Eigen::Map<const Vec4>(jets + 4 * m);
+      A[m].head<3>() -= A[m][3] * R;
+    }
+  }
+
+  void evaluate_bernstein(const Vec<2>& s, Vec4* A) const {
     double B[2][3][max_functions];
     for (int a = 0; a < 2; ++a)
       detail::bernstein_basis(piece_->degree[a], s[a], 2, max_functions, B[a][0]);
     constexpr int order[6][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
-    Vec4 A[6];
-    for (auto& sum : A) sum.setZero();
+    for (int m = 0; m < 6; ++m) A[m].setZero();
     const Vec4* c = whole();
     for (int j = 0; j <= piece_->degree[1]; ++j) {
       Vec4 row[3] = {Vec4::Zero(), Vec4::Zero(), Vec4::Zero()};
@@ -245,6 +273,11 @@ class SurfaceClosest {
         for (int t = 0; t < 3; ++t) row[t] += B[0][t][k] * *c;
       for (int m = 0; m < 6; ++m) A[m] += B[1][order[m][1]][j] * row[order[m][0]];
     }
+  }
+
+  Jet evaluate(const Vec<2>& s) const {
+    Vec4 A[6];
+    part_.power ? evaluate_powers(s, A) : evaluate_bernstein(s, A);
     Jet jet;
     jet.weight = A[0][3];
     const double inverse = 1 / jet.weight;
@@ -299,11 +332,38 @@ class SurfaceClosest {
       at.s = next;
       at.jet = there;
       differentiate();
-      // Newton squares the error: after such a step the next is rounding.
-      if (moved < (convex && length == 1 ? 1e-9 : 1e-15)) break;
+      // Newton squares the error, and the distance's is its square again; see polish().
+      if (moved < (convex && length == 1 ? 1e-5 : 1e-15)) break;
     }
     offer(at.s, at.jet.offset);
     return at;
+  }
+
+  // One of Newton's steps at the best point: distances cannot tell the foot better than to the
+  // square root of their rounding. False if there is nothing to gain.
+  bool polish() {
+    if (!best_piece_) return false;
+    piece_ = best_piece_;
+    const Jet jet = evaluate(best_s_);
+    const Vec<2> gradient = jet.first.transpose() * jet.offset;
+    Mat<2> hessian = jet.first.transpose() * jet.first;
+    hessian(0, 0) += jet.offset.dot(jet.second[0]);
+    hessian(1, 1) += jet.offset.dot(jet.second[2]);
+    hessian(0, 1) = hessian(1, 0) += jet.offset.dot(jet.second[1]);
+    bool fixed[2];
+    for (int a = 0; a < 2; ++a)
+      fixed[a] = (best_s_[a] == 0 && gradient[a] >= 0) || (best_s_[a] == 1 && gradient[a] <= 0);
+    if (!(fixed[0] || hessian(0, 0) > 0) || !(fixed[1] || hessian(1, 1) > 0) ||
+        !(fixed[0] || fixed[1] || hessian.determinant() > 0))
+      return false;
+    const Vec<2> step = solve(hessian, gradient, fixed);
+    const double length = step.cwiseAbs().maxCoeff();
+    if (!(length > 1e-16 && length < 1e-4)) return false;
+    const Vec<2> next = (best_s_ - step).cwiseMax(0.0).cwiseMin(1.0);
+    const Vec<3> offset = evaluate(next).offset;
+    if (!(offset.norm() <= best_.distance + 1e-15 * (best_.distance + size_))) return false;
+    set_best(next, offset);
+    return length > 1e-9;
   }
 
   static Vec<2> solve(const Mat<2>& A, const Vec<2>& b, const bool* fixed) {
@@ -316,7 +376,14 @@ class SurfaceClosest {
   void offer(const Vec<2>& s, const Vec<3>& offset) {
     const double distance = offset.norm();
     if (!(distance <= least_) || distance == best_.distance) return;
-    least_ = best_.distance = distance;
+    least_ = distance;
+    set_best(s, offset);
+  }
+
+  void set_best(const Vec<2>& s, const Vec<3>& offset) {
+    best_piece_ = piece_;
+    best_s_ = s;
+    best_.distance = offset.norm();
     best_.point = X_ + offset;
     for (int a = 0; a < 2; ++a)
       best_.u[a] = s[a] == 1 ? piece_->upper[a]
@@ -328,7 +395,8 @@ class SurfaceClosest {
   Scratch& scratch_;
   double least_, size_;
   ClosestPoint<3> best_;
-  const BezierPiece<2, 3>* piece_ = nullptr;
+  const BezierPiece<2, 3>*piece_ = nullptr, *best_piece_ = nullptr;
+  Vec<2> best_s_;
   int n_ = 0;
 };
 

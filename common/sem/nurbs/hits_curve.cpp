@@ -3,6 +3,7 @@
 
 #include "sem/nurbs/bernstein.h"
 #include "sem/nurbs/hits.h"
+#include "sem/nurbs/kernels.h"
 
 // f(s) = sum_i w_i n.(P_i - origin) B_i(s) vanishes where the piece meets the
 // line. A piece is halved until f is monotone, excluded, or all rounding. The
@@ -30,7 +31,7 @@ enum class Place { touch, flat, root, joint };
 class CurveHits {
  public:
   CurveHits(const PreparedNurbs<1, 2>& part, const Line<2>& line, std::vector<Hit<2>>& out)
-      : part_(part), line_(line), out_(out), first_(out.size()) {
+      : part_(part), line_(line), out_(out), first_(out.size()), power_(part.power.get()) {
     const Vec<2>& d = line.direction;
     // An exact unit axis for a line along an axis: then sides are exact.
     if (d[1] == 0)
@@ -42,18 +43,26 @@ class CurveHits {
     const Vec<2> largest = part.box.lower.cwiseAbs().cwiseMax(part.box.upper.cwiseAbs());
     tolerance_ = (8 + part.nurbs.degree[0]) * 2.2e-16 *
                  normal_.cwiseAbs().dot(largest + line.origin.cwiseAbs());
+    normal_square_ = normal_.squaredNorm();
+    direction_square_ = d.squaredNorm();
+    kernel_line_ = {{line.origin[0], line.origin[1]}, {normal_[0], normal_[1]}, {d[0], d[1]}};
   }
 
   void run() {
     const auto& pieces = part_.pieces;
-    for (size_t k = 0; k < pieces.size(); ++k) {
-      if (k > 0 && pieces[k - 1].points.rightCols<1>() != pieces[k].points.col(0)) open_ = false;
-      if (misses_box(pieces[k].box))
-        open_ = false;
-      else
-        add_piece(pieces[k]);
-      if (k == 0) first_open_ = out_.size() > first_ && touches(pieces[0], 0);
-    }
+    const int n = int(pieces.size());
+    int last = -1;
+    for (int first = 0; first < n; first += 64)
+      for (auto near = near_pieces(first); near != 0; near &= near - 1) {
+        const int k = first + __builtin_ctzll(near);
+        const bool joined = k > 0 && last == k - 1 &&
+                            pieces[k - 1].points.rightCols<1>() == pieces[k].points.col(0);
+        if (!joined) open_ = false;
+        if (!add_simple(k)) add_piece(pieces[k]);
+        if (k == 0) first_open_ = out_.size() > first_ && touches(pieces[0], 0);
+        last = k;
+      }
+    if (last != n - 1) open_ = false;
     // The joint that closes the curve.
     const bool closed = pieces.front().points.col(0) == pieces.back().points.rightCols<1>();
     if (closed && first_open_ && open_ && out_.size() > first_ + 1) {
@@ -72,6 +81,16 @@ class CurveHits {
     return normal_[0] * (X[0] - line_.origin[0]) + normal_[1] * (X[1] - line_.origin[1]);
   }
 
+  // Bit k: piece first + k may meet the line; at most 64.
+  unsigned long long near_pieces(int first) const {
+    if (power_) return detail::kernels->near_line(power_->line, kernel_line_, tolerance_, first);
+    unsigned long long near = 0;
+    const int n = std::min(64, int(part_.pieces.size()) - first);
+    for (int k = 0; k < n; ++k)
+      near |= (unsigned long long)(!misses_box(part_.pieces[first + k].box)) << k;
+    return near;
+  }
+
   bool misses_box(const Box<2>& box) const {
     double lower = 0, upper = 0;
     for (int k = 0; k < 2; ++k) {
@@ -85,6 +104,38 @@ class CurveHits {
 
   bool touches(const BezierPiece<1, 2>& piece, int i) const {
     return std::abs(side(piece.points.col(i))) <= tolerance_;
+  }
+
+  // The usual case: both ends off the line, one sign change of the coefficients and so one
+  // crossing. False if it is not that.
+  bool add_simple(int k) {
+    if (!power_) return false;
+    const BezierPiece<1, 2>& piece = part_.pieces[k];
+    const int n = piece.degree[0];
+    double f[max_coefficients];  // without the weights, which change no sign
+    for (int i = 0; i <= n; ++i) f[i] = side(piece.points.col(i));
+    if (std::abs(f[0]) <= tolerance_ || std::abs(f[n]) <= tolerance_ || (f[0] > 0) == (f[n] > 0))
+      return false;
+    int n_changes = 0;
+    for (int i = 0; i < n; ++i) n_changes += (f[i] > 0) != (f[i + 1] > 0);
+    if (n_changes > 1) return false;
+    detail::LineCrossing at;
+    const double first = f[0] * piece.weights[0], last = f[n] * piece.weights[n];
+    const double start = (first + last) / (first - last);
+    if (!detail::kernels->cross_line(power_->line, kernel_line_, k, start, at)) return false;
+    const double s = 0.5 + 0.5 * at.local;
+    if (!(s > 0 && s < 1)) return false;
+    const double across = at.across_slope * at.across_slope * direction_square_;
+    const double along = at.along_slope * at.along_slope * normal_square_;
+    Hit<2> hit;
+    hit.t = at.along / direction_square_;
+    hit.u = piece.lower + s * (piece.upper - piece.lower);
+    hit.crosses = true;
+    hit.along = false;
+    hit.tangent = across < 1e-12 * (across + along);
+    out_.push_back(hit);
+    open_ = false;
+    return true;
   }
 
   void add_piece(const BezierPiece<1, 2>& piece) {
@@ -225,6 +276,9 @@ class CurveHits {
   size_t first_;  // of this part's hits
   Vec<2> normal_;
   double tolerance_ = 0;  // on side()
+  double normal_square_ = 0, direction_square_ = 0;
+  const detail::PowerForm* power_;  // null: no kernels for this part
+  detail::KernelLine kernel_line_;
   // The piece being worked on.
   const BezierPiece<1, 2>* piece_ = nullptr;
   int degree_ = 0;

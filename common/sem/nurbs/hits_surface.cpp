@@ -4,6 +4,7 @@
 #include "sem/nurbs/basis.h"
 #include "sem/nurbs/bernstein.h"
 #include "sem/nurbs/hits.h"
+#include "sem/nurbs/kernels.h"
 
 // Two functions f, g = w n.(P - origin), n perpendicular to the line, vanish
 // together where the line meets the surface. A patch is split until its
@@ -141,11 +142,29 @@ class SurfaceHits {
     return jet;
   }
 
+  // f, g and their derivatives at s of a patch, by the powers of the whole piece if there are any.
+  Jet evaluate_patch(const Patch& patch, const Vec<2>* c, const Vec<2>& s) const {
+    if (!part_.power) return evaluate(c, s);
+    const detail::PowerForm& power = *part_.power;
+    const Vec<2> lower(patch.lower[0], patch.lower[1]);
+    const Vec<2> size = Vec<2>(patch.upper[0], patch.upper[1]) - lower;
+    const double* coefficients = power.coefficient + (piece_ - part_.pieces.data()) * power.stride;
+    const Vec<2> local = 2 * (lower + s.cwiseProduct(size)) - Vec<2>::Ones();
+    alignas(32) double jets[12];
+    detail::kernels->surface_jets(power, coefficients, local.data(), jets);
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3>, 0, Eigen::OuterStride<4>> A(jets);
+    const Eigen::Map<const Vec<3>, 0, Eigen::InnerStride<4>> W(jets + 3);
+    const Vec<3> R = line_.origin - Eigen::Map<const Vec<3>>(coefficients);
+    const Eigen::Matrix<double, 2, 3> f =
+        normals_.transpose() * A - (normals_.transpose() * R) * W.transpose();
+    return {f.col(0), f.rightCols<2>() * (2 * size).asDiagonal()};
+  }
+
   // True if the patch is done: excluded, or its hits are added.
   bool finish(const Patch& patch, const Vec<2>* c) {
     ++n_patches_;
     if (excluded(c, 1, 0) || excluded(c, 0, 1)) return true;
-    const Mat<2> J = evaluate(c, {0.5, 0.5}).jacobian;
+    const Mat<2> J = evaluate_patch(patch, c, {0.5, 0.5}).jacobian;
     const double determinant = J.determinant();
     if (std::abs(determinant) > 1e-9 * J.squaredNorm()) {
       Mat<2> inverse;
@@ -187,12 +206,12 @@ class SurfaceHits {
   bool add_simple(const Patch& patch, const Vec<2>* c) {
     Vec<2> s(0.5, 0.5);
     for (int iteration = 0; iteration < 30; ++iteration) {
-      const Jet jet = evaluate(c, s);
+      const Jet jet = evaluate_patch(patch, c, s);
       const Vec<2> step = jet.jacobian.inverse() * jet.value;
       s -= step;
       if (!(s.cwiseAbs().maxCoeff() < 4)) return false;
-      if (step.cwiseAbs().maxCoeff() > 1e-15) continue;
-      break;
+      // Newton squares the error: after such a step the next is rounding.
+      if (step.cwiseAbs().maxCoeff() < 1e-9) break;
     }
     // A root outside by rounding is a root on the boundary of the patch.
     if ((s.array() < 0).any() || (s.array() > 1).any())
@@ -285,7 +304,7 @@ class SurfaceHits {
     for (int a = 0; a < 2; ++a)
       hit.u[a] = s[a] == 1 ? piece_->upper[a]
                            : piece_->lower[a] + s[a] * (piece_->upper[a] - piece_->lower[a]);
-    const Vec<3> normal = DimTraits<3>::area_normal(derivatives(part_.nurbs, hit.u, 1).first);
+    const Vec<3> normal = DimTraits<3>::area_normal(point_slopes(part_, hit.u).first);
     hit.tangent =
         std::abs(normal.dot(line_.direction)) <= 1e-6 * normal.norm() * line_.direction.norm();
     hit.crosses = !hit.tangent;

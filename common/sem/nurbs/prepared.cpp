@@ -1,7 +1,8 @@
 #include "sem/nurbs/prepared.h"
 
 #include "sem/nurbs/axis_map.h"
-#include "sem/nurbs/bernstein.h"
+#include "sem/nurbs/foot_cells.h"
+#include "sem/nurbs/power_form.h"
 
 namespace sem {
 namespace {
@@ -25,43 +26,13 @@ detail::AxisMap bezier_map(const std::vector<double>& knots, int degree,
   return map;
 }
 
-// C = A / W, so C' = E / W^2 with E = A' W - A W', and (C - X).C' has the sign
-// of (A - W X).E. Products are convolutions of coefficients times binomials.
-template <int Dim>
-void prepare_foot(BezierPiece<1, Dim>& piece) {
-  const int p = piece.degree[0];
-  const bool polynomial = (piece.weights.array() == piece.weights[0]).all();
-  const Vec<Dim> centre = 0.5 * (piece.box.lower + piece.box.upper);
-  const double* b0 = detail::binomials(p);
-  const double* b1 = detail::binomials(p - 1);
-  Points<Dim> A = piece.points.colwise() - centre;
-  for (int i = 0; i <= p; ++i) A.col(i) *= piece.weights[i] * b0[i];
-  const Eigen::VectorXd W =
-      piece.weights.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(b0, p + 1));
-  Points<Dim> E = Points<Dim>::Zero(Dim, polynomial ? p : 2 * p);
-  for (int i = 0; i < p; ++i) {
-    const double dw = b1[i] * (piece.weights[i + 1] - piece.weights[i]);
-    // Slope of A from differences of positions, which are exact for equal ones.
-    const Vec<Dim> a0 = piece.points.col(i) - centre, a1 = piece.points.col(i + 1) - centre;
-    const Vec<Dim> dA = b1[i] * (piece.weights[i + 1] * (a1 - a0)) + dw * a0;
-    if (polynomial)
-      E.col(i) = dA;
-    else
-      for (int j = 0; j <= p; ++j) E.col(i + j) += dA * W[j] - A.col(j) * dw;
-  }
-  const int n = p + int(E.cols()) - 1;  // degree of the product
-  piece.foot.setZero(Dim + 1, n + 1);
-  for (int i = 0; i <= p; ++i)
-    for (int j = 0; j < E.cols(); ++j) {
-      piece.foot(0, i + j) += A.col(i).dot(E.col(j));
-      piece.foot.col(i + j).template tail<Dim>() += W[i] * E.col(j);
-    }
-  const double* b = detail::binomials(n);
-  for (int k = 0; k <= n; ++k) piece.foot.col(k) /= b[k];
+std::shared_ptr<const detail::FootCells> feet_of(const PreparedNurbs<1, 2>& part) {
+  return detail::make_foot_cells(part);
 }
-
-template <int Dim>
-void prepare_foot(BezierPiece<2, Dim>&) {}
+template <int ParamDim, int Dim>
+std::shared_ptr<const detail::FootCells> feet_of(const PreparedNurbs<ParamDim, Dim>&) {
+  return nullptr;
+}
 
 }  // namespace
 
@@ -102,7 +73,6 @@ PreparedNurbs<ParamDim, Dim> prepare(const Nurbs<ParamDim, Dim>& nurbs) {
       piece.weights[i] = bezier.weights[column];
       piece.box.include(Vec<Dim>(piece.points.col(i)));
     }
-    prepare_foot(piece);
     result.box.include(piece.box);
     result.pieces.push_back(std::move(piece));
     for (axis = 0; axis < ParamDim; ++axis) {  // next span, u fastest
@@ -110,6 +80,8 @@ PreparedNurbs<ParamDim, Dim> prepare(const Nurbs<ParamDim, Dim>& nurbs) {
       index[axis] = 0;
     }
   }
+  result.power = detail::make_power_form(result);
+  result.feet = feet_of(result);
   return result;
 }
 

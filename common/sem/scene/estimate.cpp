@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 
 #include "sem/base/error.h"
@@ -42,7 +41,7 @@ Rows values_of(const Scene<Dim>& scene, const std::string& file, long stride) {
   return rows;
 }
 
-// Every part cut in the middle of its domain, along every parameter.
+// Every part cut in the middle of its domain, along every parameter; its halves are "name~1" and "name~2".
 template <int Dim>
 void halve_parts(Scene<Dim>& scene) {
   for (auto& solid : scene.solids)
@@ -50,56 +49,88 @@ void halve_parts(Scene<Dim>& scene) {
       std::vector<ScenePart<Dim>> halves;
       for (const auto& part : solid.parts) {
         const Interval u = domain(part.shape, axis);
+        int n = 0;
         for (const auto& shape : split_at(part.shape, axis, (u.lower + u.upper) / 2)) {
           halves.push_back(part);
           halves.back().shape = shape;
+          halves.back().name += "~" + std::to_string(++n);
         }
       }
       solid.parts = std::move(halves);
     }
 }
 
-template <int Dim>
 struct Change {
   const char* setting;
-  std::function<void(Scene<Dim>&)> apply;
-  long stride = 1;
+  std::optional<Refinement> refinement;  // none: what `apply` does
+  double factor = 1;
 };
 
+constexpr const char* twice_penalty = "twice the clamps' penalty";
+constexpr const char* twice_gamma = "twice the stability stiffness";
+constexpr const char* larger_cutoff = "1.5 times the cutoff";
+constexpr const char* lower_degree = "one degree less";
+
 template <int Dim>
-std::vector<Change<Dim>> changes_for(const Scene<Dim>& scene, const Model<Dim>& model) {
-  std::vector<Change<Dim>> changes;
-  changes.push_back({"twice the rays and points", [](Scene<Dim>& s) {
-    s.method.rays.n_rays *= 2;
-    s.method.interval.points *= 2;
-    s.method.interior_rule.weight_tolerance /= 10;
-    s.method.interval.spacing /= 2;
-    s.method.interior_rule.waves *= 2;
-    s.method.interior_rule.compress *= 2;
-  }});
-  bool by_index = false;
-  for (const auto& pin : scene.pins) by_index |= !pin.where.control_points.empty();
-  if (!by_index) changes.push_back({"every part halved", [](Scene<Dim>& s) { halve_parts(s); }});
-  const double gamma = model.stability_stiffness, cutoff = model.discretization.theta.cutoff;
-  if (scene.method.formulation == Formulation::condensed)
-    changes.push_back({"twice the clamps' penalty", [](Scene<Dim>& s) { s.clamp_penalty *= 2; }});
-  else
-    changes.push_back({"twice the stability stiffness",
-                       [=](Scene<Dim>& s) { s.stability_stiffness = 2 * gamma; }});
-  changes.push_back({"1.5 times the cutoff", [=](Scene<Dim>& s) {
-    s.method.weights.sparsity.reset();
-    s.method.weights.cutoff = 1.5 * cutoff;
-  }});
+std::vector<Change> changes_for(const Scene<Dim>& scene) {
+  const bool condensed = scene.method.formulation == Formulation::condensed;
+  const double factor = condensed ? 2 : 1;
+  std::vector<Change> changes = {{"twice the rays and points", Refinement::quadrature},
+                                 {"every part halved", Refinement::parts, factor},
+                                 {condensed ? twice_penalty : twice_gamma, {}},
+                                 {larger_cutoff, {}}};
   if (scene.method.projection.degree < 4)
-    changes.push_back({"one degree more", [](Scene<Dim>& s) { ++s.method.projection.degree; }});
-  else
-    changes.push_back({"one degree less", [](Scene<Dim>& s) { --s.method.projection.degree; }});
+    changes.push_back({"one degree more", Refinement::degree, factor});
+  else if (!condensed)
+    changes.push_back({lower_degree, {}});
   if (scene.analysis.kind == AnalysisKind::dynamics)
-    changes.push_back({"half the time step", [](Scene<Dim>& s) { s.analysis.time_step /= 2; }, 2});
+    changes.push_back({"half the time step", Refinement::time_step});
   return changes;
 }
 
+// False if the change cannot be made.
+template <int Dim>
+bool apply(const Change& change, const Model<Dim>& model, Scene<Dim>& scene) {
+  if (change.refinement) return refine(scene, *change.refinement);
+  if (change.setting == lower_degree) --scene.method.projection.degree;
+  if (change.setting == twice_penalty) scene.clamp_penalty *= 2;
+  if (change.setting == twice_gamma) scene.stability_stiffness = 2 * model.stability_stiffness;
+  if (change.setting == larger_cutoff) {
+    scene.method.weights.sparsity.reset();
+    scene.method.weights.cutoff = 1.5 * model.discretization.theta.cutoff;
+  }
+  return true;
+}
+
 }  // namespace
+
+template <int Dim>
+bool refine(Scene<Dim>& scene, Refinement refinement) {
+  auto& m = scene.method;
+  switch (refinement) {
+    case Refinement::quadrature:
+      m.rays.n_rays *= 2;
+      m.interval.points *= 2;
+      m.interior_rule.weight_tolerance /= 10;
+      m.interval.spacing /= 2;
+      m.interior_rule.waves *= 2;
+      m.interior_rule.compress *= 2;
+      return true;
+    case Refinement::parts:
+      for (const auto& pin : scene.pins)
+        if (!pin.where.control_points.empty()) return false;
+      halve_parts(scene);
+      return true;
+    case Refinement::degree:
+      if (m.projection.degree == 4) return false;
+      ++m.projection.degree;
+      return true;
+    case Refinement::time_step:
+      scene.analysis.time_step /= 2;
+      return scene.analysis.kind == AnalysisKind::dynamics;
+  }
+  return false;
+}
 
 template <int Dim>
 ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file) {
@@ -116,20 +147,22 @@ ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file) {
   else
     result.columns = Monitor<Dim>(scene, *model).probe_columns();
   result.estimate.assign(result.value.size(), 0);
-  for (const auto& change : changes_for(scene, *model)) {
+  for (const Change& change : changes_for(scene)) {
+    Scene<Dim> varied = scene;
+    if (!apply(change, *model, varied)) continue;
     Variation variation;
     variation.setting = change.setting;
+    variation.refinement = change.refinement;
+    variation.factor = change.factor;
     const auto start = std::chrono::steady_clock::now();
     try {
-      Scene<Dim> varied = scene;
-      change.apply(varied);
-      const Rows rows = values_of(varied, file, change.stride);
+      const Rows rows = values_of(varied, file, change.refinement == Refinement::time_step ? 2 : 1);
       variation.change.assign(result.value.size(), 0);
       for (size_t t = 0; t < std::min(rows.size(), original.size()); ++t)
         for (size_t c = 0; c < std::min(rows[t].size(), variation.change.size()); ++c)
           variation.change[c] = std::max(variation.change[c], std::abs(rows[t][c] - original[t][c]));
       for (size_t c = 0; c < variation.change.size(); ++c)
-        result.estimate[c] = std::max(result.estimate[c], variation.change[c]);
+        result.estimate[c] = std::max(result.estimate[c], change.factor * variation.change[c]);
     } catch (const std::exception& error) {  // no memory for twice the points, too
       variation.failure = error.what();
     }
@@ -139,6 +172,8 @@ ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file) {
   return result;
 }
 
+template bool refine<2>(Scene<2>&, Refinement);
+template bool refine<3>(Scene<3>&, Refinement);
 template ErrorEstimate estimate_error<2>(const Scene<2>&, const std::string&);
 template ErrorEstimate estimate_error<3>(const Scene<3>&, const std::string&);
 

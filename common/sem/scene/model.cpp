@@ -15,8 +15,9 @@ namespace sem {
 using Eigen::VectorXd;
 
 bool matches_part(const std::string& selected, const std::string& solid, const std::string& part) {
-  const std::string group = part.substr(0, part.find('.'));
-  return selected == part || selected == group || selected == solid + "/" + part ||
+  // A half "top.2~1" answers to the name of the whole, "top.2".
+  const std::string whole = part.substr(0, part.find('~')), group = whole.substr(0, whole.find('.'));
+  return selected == part || selected == whole || selected == solid + "/" + whole || selected == group || selected == solid + "/" + part ||
          selected == solid + "/" + group;
 }
 

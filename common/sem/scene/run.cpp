@@ -7,6 +7,7 @@
 #include "sem/base/error.h"
 #include "sem/base/version.h"
 #include "sem/scene/accuracy.h"
+#include "sem/scene/accuracy_goal.h"
 #include "sem/scene/analysis.h"
 #include "sem/scene/checkpoint.h"
 #include "sem/scene/estimate.h"
@@ -61,6 +62,10 @@ class Run {
   Run(const Scene<Dim>& scene, const RunOptions& options, const FrameCallback<Dim>& on_frame)
       : scene_(scene), options_(options), on_frame_(on_frame) {}
 
+  // As given, or as its goal of accuracy asks.
+  Run(const RefinedScene<Dim>& refined, const RunOptions& options, const FrameCallback<Dim>& on_frame)
+      : scene_(refined.scene), options_(options), on_frame_(on_frame), refined_(&refined) {}
+
   RunResult run() {
     if (options_.resume && scene_.analysis.kind != AnalysisKind::dynamics)
       throw InputError(options_.file, "--resume", "an analysis that is not dynamic", "a dynamic one: only these have checkpoints");
@@ -75,8 +80,16 @@ class Run {
       case AnalysisKind::dynamics: run_dynamics(); break;
       case AnalysisKind::modes: run_modes(); break;
     }
+    if (refined_) {
+      estimate_ = refined_->estimate;
+      for (const auto& round : refined_->rounds) estimate_seconds_ += round.seconds;
+      char goal[100];
+      std::snprintf(goal, sizeof goal, "; accuracy %.3g %s, %.2g expected", scene_.accuracy,
+                    refined_->reached ? "met" : "NOT met", refined_->expected());
+      result_.message += goal;
+    }
     write_results();  // whatever happens to the estimate
-    if (scene_.output.error_estimate && result_.ok) {
+    if (!refined_ && scene_.output.error_estimate && result_.ok) {
       progress(1, "estimating the error");
       const auto start = std::chrono::steady_clock::now();
       estimate_ = estimate_error(scene_, options_.file);
@@ -197,7 +210,7 @@ class Run {
     std::vector<StageCost> cost = model_->cost;
     cost.push_back({"analysis", report_.seconds});
     cost.push_back({"frames", output_seconds_});
-    if (scene_.output.error_estimate) cost.push_back({"error estimate", estimate_seconds_});
+    if (refined_ || scene_.output.error_estimate) cost.push_back({"error estimate", estimate_seconds_});
     return cost;
   }
 
@@ -225,7 +238,21 @@ class Run {
     if (scene_.analysis.kind == AnalysisKind::dynamics) json["accuracy"]["energy"] = energy_json(*history_);
     if (!estimate_.columns.empty())
       json["accuracy"]["solution"] = estimate_json(estimate_, monitor_->probe_truths());
+    if (refined_) json["accuracy"]["goal"] = goal_json();
     scene_to_json(scene_, json["settings"]);
+    return json;
+  }
+
+  Json goal_json() const {
+    Json json = {{"asked", scene_.accuracy}, {"expected", refined_->expected()}, {"met", refined_->reached}};
+    for (const auto& round : refined_->rounds) {
+      json["rounds"].push_back({{"parts", round.n_parts},
+                                {"degree", round.degree},
+                                {"weight_tolerance", round.weight_tolerance},
+                                {"expected", round.expected},
+                                {"seconds", round.seconds}});
+      if (round.time_step > 0) json["rounds"].back()["time_step_s"] = round.time_step;
+    }
     return json;
   }
 
@@ -304,6 +331,7 @@ class Run {
   AnalysisReport report_;
   State state_;
   RunResult result_;
+  const RefinedScene<Dim>* refined_ = nullptr;
   double output_seconds_ = 0, estimate_seconds_ = 0;
 };
 
@@ -311,7 +339,10 @@ class Run {
 
 template <int Dim>
 RunResult run_scene(const Scene<Dim>& scene, const RunOptions& options, const FrameCallback<Dim>& on_frame) {
-  return Run<Dim>(scene, options, on_frame).run();
+  if (scene.accuracy == 0) return Run<Dim>(scene, options, on_frame).run();
+  if (options.progress) options.progress(0, "refining");
+  const RefinedScene<Dim> refined = meet_accuracy(scene, options.file);
+  return Run<Dim>(refined, options, on_frame).run();
 }
 
 template RunResult run_scene<2>(const Scene<2>&, const RunOptions&, const FrameCallback<2>&);
