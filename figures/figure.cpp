@@ -20,6 +20,8 @@ const std::vector<Figure>& all_figures() {
                                               patch_test(),
                                               deflection_parts(),
                                               condensed_convergence(),
+                                              manufactured(),
+                                              work_precision(),
                                               stiffness_sparsity(),
                                               nonzeros_step_time(),
                                               pruning(),

@@ -58,6 +58,8 @@ Figure quadrature_convergence();
 Figure patch_test();
 Figure deflection_parts();
 Figure condensed_convergence();
+Figure manufactured();
+Figure work_precision();
 Figure stiffness_sparsity();
 Figure nonzeros_step_time();
 Figure pruning();
