@@ -4,6 +4,7 @@
 #include "bodies.h"
 #include "dims.h"
 #include "sem/base/error.h"
+#include "sem/nurbs/kernels.h"
 #include "sem/scene/accuracy.h"
 #include "sem/scene/analysis.h"
 #include "sem/scene/monitor.h"
@@ -168,6 +169,19 @@ TEST_CASE("own pressure: Cook's membrane within 1.5 % at nu = 0.3, 2.5 % at nu =
   CHECK(error(0.3, OwnPressure::automatic) < 0.015);
   CHECK(error(0.3, OwnPressure::always) < 0.015);
   CHECK(error(0.4999, OwnPressure::automatic) < 0.025);
+}
+
+TEST_CASE("a symmetric beam: the last bits of closest points and hits do not choose cells or functions") {
+  const auto* const best = detail::kernels;
+  for (const int degree : {2, 3})
+    for (const double cutoff : {0.55, 0.75}) {
+      const Scene<2> scene = beam(10, cutoff, degree);
+      const auto fast = probes_at_rest(scene);
+      detail::kernels = &detail::portable_kernels;
+      const auto portable = probes_at_rest(scene);
+      detail::kernels = best;
+      CHECK(fast[1] == doctest::Approx(portable[1]).epsilon(1e-10));
+    }
 }
 
 TEST_CASE_TEMPLATE("energy with clamps: gradient and Hessian are finite differences", T, D2, D3) {

@@ -103,6 +103,13 @@ MatrixXd gradient_gram_matrix(const Map<Dim>& map, const VectorXd& volume, doubl
   return G;
 }
 
+// The first of the entries that are largest up to rounding: symmetric bodies have many, and the choice
+// must not hang on the last bit.
+int first_largest(const VectorXd& values) {
+  const double most = values.maxCoeff(), nearly = most - 1e-6 * std::abs(most);
+  return int(std::find_if(values.begin(), values.end(), [&](double v) { return v >= nearly; }) - values.begin());
+}
+
 // Indices of rows of the positive semi-definite G that are independent: the first n_first, then by
 // the largest remaining diagonal. G is scaled to a unit diagonal first and destroyed.
 std::vector<int> independent_rows(MatrixXd& G, int n_first, double tolerance) {
@@ -115,7 +122,7 @@ std::vector<int> independent_rows(MatrixXd& G, int n_first, double tolerance) {
   std::vector<int> chosen;
   while (int(chosen.size()) < n) {
     int pivot = int(chosen.size());
-    if (pivot >= n_first) left.maxCoeff(&pivot);
+    if (pivot >= n_first) pivot = first_largest(left);
     if (!(left[pivot] > tolerance)) break;
     const int c = int(chosen.size());
     L.col(c) =

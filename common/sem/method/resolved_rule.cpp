@@ -11,6 +11,10 @@
 namespace sem {
 namespace {
 
+// Changes of cells that mirror each other differ by rounding alone. They are told apart from others, so
+// that the cells do not depend on it.
+constexpr double tie = 1e-6;
+
 // A box in the coordinates sigma of the cells, [0, 1] each: across the rays (Dim - 1), then along.
 template <int Dim>
 struct Patch {
@@ -207,7 +211,7 @@ class Refiner {
         const auto& b = pieces[2 * (Dim * p + axis) + 1];
         const double change = (a.integral + b.integral - leaf.whole.integral).cwiseAbs().sum();
         if (change > leaf.error) leaf.error = change;
-        if (leaf.whole.patch.depth[axis] >= options_.max_depth || change <= best) continue;
+        if (leaf.whole.patch.depth[axis] >= options_.max_depth || change <= (1 + tie) * best) continue;
         worst = axis;
         best = change;
       }
@@ -218,20 +222,21 @@ class Refiner {
     }
   }
 
-  // Halves the leaves that make up most of the error.
+  // Halves the leaves that make up most of the error, with all that tie with the last one.
   void refine(double error) {
     std::vector<int> order(leaves_.size());
     for (size_t l = 0; l < order.size(); ++l) order[l] = int(l);
     std::sort(order.begin(), order.end(), [&](int a, int b) {
       return leaves_[a].error != leaves_[b].error ? leaves_[a].error > leaves_[b].error : a < b;
     });
-    double marked = 0;
+    double marked = 0, least = 0;
     std::vector<Piece<Dim>> halves;
     std::vector<bool> gone(leaves_.size(), false);
     for (const int l : order) {
-      if (marked > 0.7 * error) break;
+      if (marked > 0.7 * error && leaves_[l].error < (1 - tie) * least) break;
       if (!leaves_[l].refinable) continue;
       marked += leaves_[l].error;
+      least = leaves_[l].error;
       gone[l] = true;
       for (auto& half : leaves_[l].halves) halves.push_back(std::move(half));
     }
