@@ -26,8 +26,7 @@ const std::vector<Figure>& all_figures() {
                                               nonzeros_step_time(),
                                               pruning(),
                                               integrators(),
-                                              release(),
-                                              stability_matrix()};
+                                              release()};
   return figures;
 }
 

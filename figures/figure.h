@@ -65,6 +65,5 @@ Figure nonzeros_step_time();
 Figure pruning();
 Figure integrators();
 Figure release();
-Figure stability_matrix();
 
 }  // namespace sem::figures

@@ -238,7 +238,7 @@ int main(int argc, char** argv) {
       },
       [&](Picture& picture) {
         std::vector<std::pair<std::string, double>> bars;
-        for (const auto& [setting, change, seconds, failure] : estimate.variations)
+        for (const auto& [setting, refinement, factor, change, seconds, failure] : estimate.variations)
           bars.push_back(
               {setting, change.empty() ? 0 : *std::max_element(change.begin(), change.end())});
         draw_bars(picture, "largest change of a probe, m", bars);

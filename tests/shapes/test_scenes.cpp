@@ -26,7 +26,7 @@ const BuiltinScene& builtin(const std::string& name) {
 }  // namespace
 
 TEST_CASE("built-in scenes: the blob first, all named and described") {
-  REQUIRE(builtin_scenes().size() == 11);
+  REQUIRE(builtin_scenes().size() == 12);
   CHECK(builtin_scenes()[0].name == "blob");
   std::set<std::string> names;
   for (const auto& builtin : builtin_scenes()) {

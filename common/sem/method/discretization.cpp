@@ -175,8 +175,8 @@ void require_thickness(const Boundary<Dim>& boundary) {
   constexpr double least = 1e-10;
   const double share = (boundary.box.upper - boundary.box.lower).minCoeff() / boundary.box.diagonal();
   if (share < least)
-    throw InputError("", "solids", "a body as thin as " + std::to_string(share / least) + " times 1e-10 of its size",
-                     "at least 1e-10 of it");
+    throw InputError("", "solids", "no interior: a body thinner than 1e-10 of its size",
+                     "parts that enclose an interior");
 }
 
 }  // namespace
