@@ -72,9 +72,9 @@ void draw(Plot& plot, const Data& data) {
 
 Figure manufactured() {
   return {"manufactured",
-          "A smooth manufactured solution without clamps: with sided weights the error in the energy norm falls by about "
-          "a factor of 5 to 10 a degree, on a convex and a non-convex body; with the published weights, which "
-          "jump inside, it grows",
+          "A smooth manufactured solution without clamps: with sided weights the error in the energy norm falls by up to "
+          "a factor of 10 a degree, on a convex and a non-convex body, until it meets the quadrature's (tolerance 1e-4); "
+          "with the published weights, which jump inside, it exceeds the solution",
           7,
           2.8,
           compute,

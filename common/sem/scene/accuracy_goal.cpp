@@ -17,6 +17,8 @@ int n_parts(const Scene<Dim>& scene) {
   return n;
 }
 
+constexpr double finest_rule = 1e-5;  // weight_tolerance: beyond, a rule has 100000 points and more
+
 // Before dependent functions are left out.
 template <int Dim>
 int most_unknowns(const Scene<Dim>& scene) {
@@ -59,6 +61,7 @@ std::optional<Refinement> best_refinement(const Scene<Dim>& scene, const ErrorEs
     Scene<Dim> finer = scene;
     const double change = variation.factor * relative(sizes, variation.change, estimate.value);
     if (change <= largest || !refine(finer, *variation.refinement) || most_unknowns(finer) > max_unknowns) continue;
+    if (finer.method.interior_rule.weight_tolerance < finest_rule) continue;
     best = variation.refinement;
     largest = change;
   }
