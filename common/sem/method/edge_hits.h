@@ -5,6 +5,16 @@
 
 namespace sem {
 
+/// True if u lies on the border of a patch's domain, to a share of its size.
+inline bool on_border(const Nurbs<2, 3>& patch, const Param<2>& u, double share) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const Interval range = domain(patch, axis);
+    const double near = share * (range.upper - range.lower);
+    if (u[axis] - range.lower <= near || range.upper - u[axis] <= near) return true;
+  }
+  return false;
+}
+
 /// True if the parts that meet at the hit may count it differently: then parity tells nothing.
 /// 2D: never, crossings at the ends of curves are consistent (hits.h).
 /// 3D: on the border of the patch's domain, to 1e-9 of it.
@@ -18,12 +28,7 @@ inline bool is_in_doubt<2>(const PreparedNurbs<1, 2>&, const Hit<2>&) {
 
 template <>
 inline bool is_in_doubt<3>(const PreparedNurbs<2, 3>& part, const Hit<3>& hit) {
-  for (int axis = 0; axis < 2; ++axis) {
-    const Interval range = domain(part.nurbs, axis);
-    const double near = 1e-9 * (range.upper - range.lower);
-    if (hit.u[axis] - range.lower <= near || range.upper - hit.u[axis] <= near) return true;
-  }
-  return false;
+  return on_border(part.nurbs, hit.u, 1e-9);
 }
 
 }  // namespace sem

@@ -1,6 +1,7 @@
 #include <numeric>
 
 #include "sem/method/find_loops.h"
+#include "sem/method/edge_hits.h"
 #include "sem/nurbs/closest.h"
 
 namespace sem::detail {
@@ -9,16 +10,6 @@ namespace {
 int root(std::vector<int>& parent, int i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;
-}
-
-// True if the parameter lies on the border of the patch's domain.
-bool on_border(const Nurbs<2, 3>& shape, const Param<2>& u) {
-  for (int axis = 0; axis < 2; ++axis) {
-    const Interval range = domain(shape, axis);
-    const double near = 1e-6 * (range.upper - range.lower);
-    if (u[axis] - range.lower <= near || range.upper - u[axis] <= near) return true;
-  }
-  return false;
 }
 
 // True if a corner of one patch lies on an edge of the other: shells grow across shared edges, also of
@@ -31,7 +22,7 @@ bool touch(const Boundary<3>& boundary, int i, int j) {
     for (const int corner : {0, nu - 1, nu * (nv - 1), nu * nv - 1}) {
       const Vec<3> X = shape.control_points.col(corner);
       const auto foot = closest_point(boundary.parts[b], X, 2 * tolerance);
-      if (foot.distance <= tolerance && on_border(boundary.parts[b].nurbs, foot.u)) return true;
+      if (foot.distance <= tolerance && on_border(boundary.parts[b].nurbs, foot.u, 1e-6)) return true;
     }
   }
   return false;

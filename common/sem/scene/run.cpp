@@ -59,12 +59,10 @@ std::string deformed_parts(const Scene<Dim>& scene, const Model<Dim>& model, con
 template <int Dim>
 class Run {
  public:
-  Run(const Scene<Dim>& scene, const RunOptions& options, const FrameCallback<Dim>& on_frame)
-      : scene_(scene), options_(options), on_frame_(on_frame) {}
-
-  // As given, or as its goal of accuracy asks.
-  Run(const RefinedScene<Dim>& refined, const RunOptions& options, const FrameCallback<Dim>& on_frame)
-      : scene_(refined.scene), options_(options), on_frame_(on_frame), refined_(&refined) {}
+  // refined: where the scene comes from if it has a goal of accuracy, else null.
+  Run(const Scene<Dim>& scene, const RunOptions& options, const FrameCallback<Dim>& on_frame,
+      const RefinedScene<Dim>* refined)
+      : scene_(scene), options_(options), on_frame_(on_frame), refined_(refined) {}
 
   RunResult run() {
     if (options_.resume && scene_.analysis.kind != AnalysisKind::dynamics)
@@ -331,7 +329,7 @@ class Run {
   AnalysisReport report_;
   State state_;
   RunResult result_;
-  const RefinedScene<Dim>* refined_ = nullptr;
+  const RefinedScene<Dim>* refined_;
   double output_seconds_ = 0, estimate_seconds_ = 0;
 };
 
@@ -339,10 +337,10 @@ class Run {
 
 template <int Dim>
 RunResult run_scene(const Scene<Dim>& scene, const RunOptions& options, const FrameCallback<Dim>& on_frame) {
-  if (scene.accuracy == 0) return Run<Dim>(scene, options, on_frame).run();
+  if (scene.accuracy == 0) return Run<Dim>(scene, options, on_frame, nullptr).run();
   if (options.progress) options.progress(0, "refining");
   const RefinedScene<Dim> refined = meet_accuracy(scene, options.file);
-  return Run<Dim>(refined, options, on_frame).run();
+  return Run<Dim>(refined.scene, options, on_frame, &refined).run();
 }
 
 template RunResult run_scene<2>(const Scene<2>&, const RunOptions&, const FrameCallback<2>&);
