@@ -197,5 +197,6 @@ double check_body(const Body<Dim>& body, Formulation formulation, const Bounds& 
                                   const std::function<void(MethodOptions&)>&, Checks&);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
+#undef SEM_INSTANTIATE
 
 }  // namespace sem::stability

@@ -174,5 +174,6 @@ PlaneShape as_one_solid(const PlaneShape& shape) {
   template Body<Dim> with_mixed_orientation<Dim>(const Body<Dim>&);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
+#undef SEM_INSTANTIATE
 
 }  // namespace sem::stability

@@ -50,5 +50,6 @@ double add_traction(const Discretization<Dim>& d, const Traction<Dim>& traction,
                                     Eigen::VectorXd&);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
+#undef SEM_INSTANTIATE
 
 }  // namespace sem

@@ -1,8 +1,8 @@
 #include "sem/mechanics/pressure.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace sem {
 
@@ -25,7 +25,7 @@ Pressure<Dim>::Pressure(PressureFunctions<Dim> functions, const VectorXd& weight
     for (size_t j = 0; j < block.columns.size(); ++j)
       for (size_t i = 0; i < block.columns.size(); ++i) M(block.columns[i], block.columns[j]) += product(i, j);
   }
-  factor_ = M.llt().matrixL();
+  if (!factor_.compute(M)) throw std::invalid_argument("Pressure: the functions are dependent on the points");
   interior_ = VectorXd::Zero(functions_.interior.n_points);
   on_clamps_ = VectorXd::Constant(functions_.on_clamps.rows(), std::numeric_limits<double>::quiet_NaN());
 }
@@ -42,8 +42,8 @@ void Pressure<Dim>::solve(const VectorXd& g, const VectorXd& clamp_work) {
     }
   for (int s = 0; s < clamp_work.size(); ++s)
     if (functions_.clamp_mixed[s]) b_ += clamp_work[s] * functions_.on_clamps.row(s).transpose();
-  y_ = factor_.triangularView<Eigen::Lower>().solve(b_);
-  factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(y_);
+  y_ = b_;
+  factor_.solve_in_place(y_);
   for (const auto& block : functions_.interior.blocks)
     for (size_t k = 0; k < block.points.size(); ++k) {
       double p = 0;
@@ -56,7 +56,7 @@ void Pressure<Dim>::solve(const VectorXd& g, const VectorXd& clamp_work) {
 
 template <int Dim>
 void Pressure<Dim>::add_to_hessian(MatrixXd& G, MatrixXd& H) const {
-  factor_.triangularView<Eigen::Lower>().solveInPlace(G);
+  factor_.solve_factor_in_place(G);
   H.noalias() += G.transpose() * G;
 }
 

@@ -11,6 +11,7 @@
 // M y = b. Where g is itself a q (uniform changes of volume) nothing changes.
 
 #include "sem/mechanics/clamps.h"
+#include "sem/solve/cholesky.h"
 
 namespace sem {
 
@@ -51,7 +52,7 @@ class Pressure {
  private:
   PressureFunctions<Dim> functions_;
   Eigen::VectorXd weight_;
-  Eigen::MatrixXd factor_;  // L of M = L L^T
+  Cholesky factor_;  // of M
   Eigen::VectorXd b_, y_, interior_, on_clamps_;
 };
 

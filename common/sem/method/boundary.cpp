@@ -83,5 +83,6 @@ std::vector<std::vector<int>> coincident_controls(const Boundary<Dim>& boundary)
   template std::vector<std::vector<int>> coincident_controls<Dim>(const Boundary<Dim>&);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
+#undef SEM_INSTANTIATE
 
 }  // namespace sem

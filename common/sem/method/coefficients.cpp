@@ -268,5 +268,6 @@ double satisfy_divergence_theorem(Map<Dim>& interior, const VectorXd& volume, co
   template MatrixXd boundary_output<Dim>(const Samples<Dim>&, const Map<Dim>&, int);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
+#undef SEM_INSTANTIATE
 
 }  // namespace sem

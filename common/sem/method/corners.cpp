@@ -9,7 +9,6 @@
 namespace sem {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double next_level = 0.3;
 
 // A part at one of its ends.
@@ -40,7 +39,7 @@ std::vector<PartEnd> ends_of_parts(const Boundary<2>& boundary, const Loops<2>& 
 }
 
 double distance_to_others(const Boundary<2>& boundary, const Vec<2>& corner, double tolerance) {
-  double distance = infinity;
+  double distance = std::numeric_limits<double>::infinity();
   for (const auto& part : boundary.parts) {
     const double d = closest_point(part, corner, distance).distance;
     if (d > tolerance) distance = std::min(distance, d);
@@ -65,7 +64,7 @@ std::vector<CornerPatch<2>> find_corners<2>(const Boundary<2>& boundary, const L
     for (size_t j = i; j < ends.size(); ++j) {
       if ((ends[j].point - ends[i].point).norm() > tolerance) continue;
       done[j] = true;
-      radius = std::min(radius, ends[j].reach > tolerance ? ends[j].reach : infinity);
+      radius = std::min(radius, ends[j].reach > tolerance ? ends[j].reach : std::numeric_limits<double>::infinity());
       for (size_t k = i; k < ends.size(); ++k)
         reentrant |= k != j && (ends[k].point - ends[i].point).norm() <= tolerance &&
                      ends[j].inward_normal.dot(ends[k].leaving) < -0.05;

@@ -126,5 +126,6 @@ void distance_weight_gradients(const Boundary<Dim>& boundary, const Points<Dim>&
                                                const Distances<Dim>&, DistanceWeights<Dim>&);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
+#undef SEM_INSTANTIATE
 
 }  // namespace sem

@@ -197,5 +197,6 @@ DistanceWeights<Dim> distance_weights(const Distances<Dim>& distances, const Wei
   template DistanceWeights<Dim> distance_weights<Dim>(const Distances<Dim>&, const WeightOptions&);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
+#undef SEM_INSTANTIATE
 
 }  // namespace sem

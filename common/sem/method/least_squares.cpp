@@ -1,6 +1,5 @@
 #include "sem/method/least_squares.h"
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <cmath>
 
@@ -14,7 +13,8 @@ PseudoInverse pseudo_inverse(const Eigen::MatrixXd& A, double tolerance) {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
   decomposition.setThreshold(tolerance);
   decomposition.compute(A);
-  PseudoInverse result{decomposition.solve(Eigen::MatrixXd::Identity(A.rows(), A.rows())), int(decomposition.rank()), 1};
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(A.rows(), A.rows());
+  PseudoInverse result{decomposition.solve(identity), int(decomposition.rank()), 1};
   if (result.rank > 0)
     result.condition = std::abs(decomposition.matrixQTZ()(0, 0) /
                                 decomposition.matrixQTZ()(result.rank - 1, result.rank - 1));
@@ -27,8 +27,8 @@ Eigen::MatrixXd gram_matrix(const Eigen::MatrixXd& A, const Eigen::VectorXd& wei
 }
 
 Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& A) {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(A.rows(), qr.rank());
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(A);
+  return decomposition.householderQ() * Eigen::MatrixXd::Identity(A.rows(), decomposition.rank());
 }
 
 }  // namespace sem

@@ -216,5 +216,6 @@ Mat<Dim> deformation_gradient(const MapBlock<Dim>& block, int row, const VectorX
   template Mat<Dim> deformation_gradient<Dim>(const MapBlock<Dim>&, int, const VectorXd&);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
+#undef SEM_INSTANTIATE
 
 }  // namespace sem

@@ -117,5 +117,6 @@ Origins<Dim> choose_origins(OriginChoice choice, const BlendingWeights<Dim>& wei
                                             const Eigen::VectorXd&, const Samples<Dim>&);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
+#undef SEM_INSTANTIATE
 
 }  // namespace sem

@@ -13,7 +13,7 @@ namespace {
 
 // Changes of cells that mirror each other differ by rounding alone. They are told apart from others, so
 // that the cells do not depend on it.
-constexpr double tie = 1e-6;
+constexpr double change_tie = 1e-6;
 
 // A box in the coordinates sigma of the cells, [0, 1] each: across the rays (Dim - 1), then along.
 template <int Dim>
@@ -211,7 +211,7 @@ class Refiner {
         const auto& b = pieces[2 * (Dim * p + axis) + 1];
         const double change = (a.integral + b.integral - leaf.whole.integral).cwiseAbs().sum();
         if (change > leaf.error) leaf.error = change;
-        if (leaf.whole.patch.depth[axis] >= options_.max_depth || change <= (1 + tie) * best) continue;
+        if (leaf.whole.patch.depth[axis] >= options_.max_depth || change <= (1 + change_tie) * best) continue;
         worst = axis;
         best = change;
       }
@@ -233,7 +233,7 @@ class Refiner {
     std::vector<Piece<Dim>> halves;
     std::vector<bool> gone(leaves_.size(), false);
     for (const int l : order) {
-      if (marked > 0.7 * error && leaves_[l].error < (1 - tie) * least) break;
+      if (marked > 0.7 * error && leaves_[l].error < (1 - change_tie) * least) break;
       if (!leaves_[l].refinable) continue;
       marked += leaves_[l].error;
       least = leaves_[l].error;
@@ -292,5 +292,6 @@ ResolvedRule<Dim> resolved_rule(const Boundary<Dim>& boundary, const Loops<Dim>&
                                                 int);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
+#undef SEM_INSTANTIATE
 
 }  // namespace sem

@@ -36,5 +36,6 @@ Eigen::VectorXd affine_field(const Unknowns<Dim>& unknowns, const Mat<Dim>& A, c
   template Eigen::VectorXd affine_field<Dim>(const Unknowns<Dim>&, const Mat<Dim>&, const Vec<Dim>&);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
+#undef SEM_INSTANTIATE
 
 }  // namespace sem

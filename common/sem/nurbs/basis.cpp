@@ -8,12 +8,11 @@
 namespace sem {
 namespace {
 
-constexpr int max_functions = max_nurbs_degree + 1;
 
 // B-spline functions of one axis that do not vanish, with derivatives.
 struct AxisBasis {
   int first;  // index of the first function
-  double value[3][max_functions];
+  double value[3][max_nurbs_functions];
 };
 
 // Cox-de Boor; derivatives from the functions of one and two degrees less.
@@ -26,7 +25,7 @@ void evaluate_axis(const std::vector<double>& knots, Degree degree, double u, Ax
   u = std::clamp(u, knots[degree], knots[knots.size() - degree - 1]);
   const double* after = knots.data() + k + 1;  // after[r], before[-r] surround the span
   const double* before = knots.data() + k;
-  double inverse[max_functions], share[max_functions], lower[max_functions];
+  double inverse[max_nurbs_functions], share[max_nurbs_functions], lower[max_nurbs_functions];
   double* N = out.value[0];
   out.first = k - degree;
   N[0] = 1;

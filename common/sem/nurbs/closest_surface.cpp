@@ -17,7 +17,6 @@ namespace {
 
 using Vec4 = Eigen::Vector4d;  // w (P - X), w
 
-constexpr int max_functions = max_nurbs_degree + 1;
 constexpr int max_patches = 50000;  // only a curve of equally close points needs so many
 
 struct Patch {
@@ -265,9 +264,9 @@ class SurfaceClosest {
   }
 
   void evaluate_bernstein(const Vec<2>& s, Vec4* A) const {
-    double B[2][3][max_functions];
+    double B[2][3][max_nurbs_functions];
     for (int a = 0; a < 2; ++a)
-      detail::bernstein_basis(piece_->degree[a], s[a], 2, max_functions, B[a][0]);
+      detail::bernstein_basis(piece_->degree[a], s[a], 2, max_nurbs_functions, B[a][0]);
     constexpr int order[6][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
     for (int m = 0; m < 6; ++m) A[m].setZero();
     const Vec4* c = whole();

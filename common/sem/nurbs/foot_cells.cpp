@@ -9,11 +9,11 @@ namespace {
 constexpr int max_halvings = 3;
 constexpr double largest_reach = 1e-3;  // of the part's size
 
-using Coefficients = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+using PlaneCoefficients = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
 // C = A / W, so C' = E / W^2 with E = A' W - A W', and (C - X).C' has the sign
 // of (A - W X).E. Products are convolutions of coefficients times binomials.
-Coefficients foot_polynomial(const BezierPiece<1, 2>& piece) {
+PlaneCoefficients foot_polynomial(const BezierPiece<1, 2>& piece) {
   const int p = piece.degree[0];
   const bool polynomial = (piece.weights.array() == piece.weights[0]).all();
   const Vec<2> centre = 0.5 * (piece.box.lower + piece.box.upper);
@@ -35,7 +35,7 @@ Coefficients foot_polynomial(const BezierPiece<1, 2>& piece) {
       for (int j = 0; j <= p; ++j) E.col(i + j) += dA * W[j] - A.col(j) * dw;
   }
   const int n = p + int(E.cols()) - 1;  // degree of the product
-  Coefficients foot = Coefficients::Zero(3, n + 1);
+  PlaneCoefficients foot = PlaneCoefficients::Zero(3, n + 1);
   for (int i = 0; i <= p; ++i)
     for (int j = 0; j < E.cols(); ++j) {
       foot(0, i + j) += A.col(i).dot(E.col(j));
@@ -47,7 +47,7 @@ Coefficients foot_polynomial(const BezierPiece<1, 2>& piece) {
 }
 
 // How far the control points, and with them the curve, are from the chord of their ends.
-double reach(const Coefficients& homogeneous) {
+double reach(const PlaneCoefficients& homogeneous) {
   const Points<2> P = homogeneous.topRows<2>().array().rowwise() / homogeneous.row(2).array();
   const Vec<2> start = P.col(0), step = P.rightCols<1>() - start;
   double largest = 0;
@@ -65,13 +65,13 @@ struct Builder {
   FootCells& result;
   std::vector<std::array<double, 6>> chords;
 
-  void add(int piece, double a, double b, const Coefficients& homogeneous, const Coefficients& foot,
+  void add(int piece, double a, double b, const PlaneCoefficients& homogeneous, const PlaneCoefficients& foot,
            int halvings) {
     const double size = part.box.diagonal(), distance = reach(homogeneous);
     if (distance > largest_reach * size && halvings < max_halvings) {
-      Coefficients halves[2][2];
+      PlaneCoefficients halves[2][2];
       for (int which = 0; which < 2; ++which) {
-        const Coefficients& c = which ? foot : homogeneous;
+        const PlaneCoefficients& c = which ? foot : homogeneous;
         halves[which][0] = halves[which][1] = c;
         halve(halves[which][0], halves[which][1]);
       }
@@ -97,7 +97,7 @@ struct Builder {
   }
 
   // de Casteljau at the middle; both hold the coefficients.
-  static void halve(Coefficients& left, Coefficients& right) {
+  static void halve(PlaneCoefficients& left, PlaneCoefficients& right) {
     const int n = int(right.cols());
     for (int j = 0; j < n; ++j) {
       left.col(j) = right.col(0);
@@ -118,7 +118,7 @@ void make_forms(FootCells& feet) {
   for (auto& cell : feet.cells) {
     const int degree = int(cell.foot.cols()) - 1, lanes = n_lanes(cell);
     if (degree > max_degree) continue;
-    const Coefficients power = cell.foot * powers_of_bernstein(degree).transpose();
+    const PlaneCoefficients power = cell.foot * powers_of_bernstein(degree).transpose();
     for (int row = 0; row < 3; ++row)
       for (int i = 0; i <= degree; ++i) {
         next[row * lanes + i] = cell.foot(row, i);
@@ -137,7 +137,7 @@ std::shared_ptr<const FootCells> make_foot_cells(const PreparedNurbs<1, 2>& part
   for (int k = 0; k < int(part.pieces.size()); ++k) {
     const auto& piece = part.pieces[k];
     const Vec<2> centre = 0.5 * (piece.box.lower + piece.box.upper);
-    Coefficients homogeneous(3, piece.weights.size());
+    PlaneCoefficients homogeneous(3, piece.weights.size());
     homogeneous << (piece.points.colwise() - centre) * piece.weights.asDiagonal(),
         piece.weights.transpose();
     builder.add(k, 0, 1, homogeneous, foot_polynomial(piece), 0);

@@ -16,7 +16,6 @@
 namespace sem {
 namespace {
 
-constexpr int max_functions = max_nurbs_degree + 1;
 constexpr int max_halvings = 27;    // of each axis, for tangencies
 constexpr int coarse_halvings = 9;  // once max_patches are exceeded: a line along the surface
 constexpr int max_patches = 8000;   // per piece
@@ -128,9 +127,9 @@ class SurfaceHits {
   }
 
   Jet evaluate(const Vec<2>* c, const Vec<2>& s) const {
-    double B[2][2][max_functions];
+    double B[2][2][max_nurbs_functions];
     for (int a = 0; a < 2; ++a)
-      detail::bernstein_basis(piece_->degree[a], s[a], 1, max_functions, B[a][0]);
+      detail::bernstein_basis(piece_->degree[a], s[a], 1, max_nurbs_functions, B[a][0]);
     Jet jet{Vec<2>::Zero(), Mat<2>::Zero()};
     for (int j = 0, i = 0; j <= piece_->degree[1]; ++j)
       for (int k = 0; k <= piece_->degree[0]; ++k, ++i) {

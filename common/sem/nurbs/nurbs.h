@@ -24,7 +24,7 @@ struct Nurbs {
 
 /// Largest degree of a NURBS; check() rejects higher ones. Evaluation, hits
 /// and closest points keep their scratch on the stack because of it.
-constexpr int max_nurbs_degree = 32;
+constexpr int max_nurbs_degree = 32, max_nurbs_functions = max_nurbs_degree + 1;  // functions that are not zero at a parameter
 
 /// A closed interval of the parameter.
 struct Interval {

@@ -31,6 +31,16 @@ void Cholesky::solve_in_place(Eigen::VectorXd& b) const {
   b.array() *= scale_.array();
 }
 
+void Cholesky::solve_factor_in_place(Eigen::MatrixXd& B) const {
+  for (Eigen::Index j = 0; j < B.cols(); ++j) B.col(j).array() *= scale_.array();
+  factor_.triangularView<Eigen::Lower>().solveInPlace(B);
+}
+
+void Cholesky::solve_transposed_factor_in_place(Eigen::MatrixXd& B) const {
+  factor_.triangularView<Eigen::Lower>().transpose().solveInPlace(B);
+  for (Eigen::Index j = 0; j < B.cols(); ++j) B.col(j).array() *= scale_.array();
+}
+
 double Cholesky::condition_estimate() const {
   if (!ok_) return std::numeric_limits<double>::infinity();
   if (factor_.rows() == 0) return 1;

@@ -6,7 +6,7 @@
 
 namespace sem {
 
-/// A = S L L^T S with S = sqrt(diag A): scaling makes the pivots of L, in
+/// A = S^-1 L L^T S^-1 with S = 1 / sqrt(diag A): scaling makes the pivots of L, in
 /// (0, 1], independent of the units of the unknowns. Reuses its storage; Eigen's
 /// blocked kernels may take workspace of their own from the heap if A has more
 /// than some 500 rows.
@@ -21,6 +21,10 @@ class Cholesky {
 
   /// b := A^-1 b.
   void solve_in_place(Eigen::VectorXd& b) const;
+
+  /// B := C^-1 B and B := C^-T B for the factor C = S^-1 L of A = C C^T.
+  void solve_factor_in_place(Eigen::MatrixXd& B) const;
+  void solve_transposed_factor_in_place(Eigen::MatrixXd& B) const;
 
   /// (largest pivot / smallest pivot)^2 of L: a cheap lower bound of the
   /// condition number of the scaled A; infinity without a factor.

@@ -1,6 +1,5 @@
 #include "sem/solve/modes.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,21 +12,18 @@ namespace sem {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 Eigen::MatrixXd free_block(const Eigen::MatrixXd& A, const std::vector<int>& free) {
   return A(free, free);
 }
 
-// The smallest of a few shifts s that makes K + s M well positive definite; s < 0 if none does.
+// Factorises K + s M with the smallest of a few shifts s that make it well positive definite; false if none does.
 // None is tiny: rigid motions with mu = 1/s must not drown the others.
-double find_shift(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M) {
+bool factorize_shifted(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, Cholesky& cholesky) {
   const double ratio = M.trace() > 0 ? std::abs(K.trace()) / M.trace() : 0;
-  Cholesky cholesky(int(K.rows()));
   for (const double share : {0., 1e-4, 1e-2, 1., 100., 1e4})
     if (cholesky.compute(K + share * ratio * M) && cholesky.condition_estimate() < 1e10)
-      return share * ratio;
-  return -1;
+      return true;
+  return false;
 }
 
 // Rayleigh quotient: free of the cancellation in 1/mu - s.
@@ -52,27 +48,28 @@ Modes vibration_modes(const System& system, const Eigen::VectorXd& z, int n_mode
     modes.status = Status::not_finite;
     return modes;
   }
-  const double shift = find_shift(K, M);
-  if (shift < 0) {
+  Cholesky cholesky(n_free);
+  if (!factorize_shifted(K, M, cholesky)) {
     modes.status = Status::singular;
     return modes;
   }
-  // M phi = mu (K + s M) phi with K + s M = L L^T: L^-1 M L^-T (L^T phi) = mu (L^T phi).
-  const Eigen::LLT<Eigen::MatrixXd> llt(K + shift * M);
-  const auto L = llt.matrixL();
-  const auto eigen = symmetric_eigen<Eigen::MatrixXd>(L.solve(L.solve(M).transpose()),
-                                                      std::clamp(n_modes, 0, n_free));
+  // M phi = mu (K + s M) phi with K + s M = C C^T: C^-1 M C^-T (C^T phi) = mu (C^T phi).
+  Eigen::MatrixXd half = M;
+  cholesky.solve_factor_in_place(half);
+  half.transposeInPlace();
+  cholesky.solve_factor_in_place(half);
+  const auto eigen = symmetric_eigen(half, std::clamp(n_modes, 0, n_free));
   // mu descending = omega ascending; mu = 0 without mass.
   const Eigen::VectorXd mu = eigen.values.reverse();
-  const double no_mass = 8 * n_free * epsilon * std::max(mu(0), 0.);
+  const double no_mass = 8 * n_free * std::numeric_limits<double>::epsilon() * std::max(mu(0), 0.);
   const int n_massive = int((mu.array() > no_mass).count());
   modes.n_massless = n_free - n_massive;
 
   const int n_found = std::clamp(n_modes, 0, n_massive);
   std::vector<std::pair<double, int>> order;
-  const Eigen::MatrixXd shapes =
-      llt.matrixU().solve(eigen.vectors.rightCols(n_found).rowwise().reverse());
-  for (int k = 0; k < n_found; ++k) order.push_back({signed_omega(shapes.col(k), K, M), k});
+  Eigen::MatrixXd shapes = eigen.vectors.rightCols(n_found);
+  cholesky.solve_transposed_factor_in_place(shapes);
+  for (int k = 0; k < n_found; ++k) order.push_back({signed_omega(shapes.col(n_found - 1 - k), K, M), n_found - 1 - k});
   std::stable_sort(order.begin(), order.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
 

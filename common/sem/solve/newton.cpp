@@ -9,7 +9,6 @@
 namespace sem {
 
 namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double armijo = 1e-4;     // share of the predicted decrease that is asked for
 constexpr int max_backtracks = 40;  // 2^-40: the direction is useless
 constexpr double energy_noise =
@@ -96,7 +95,7 @@ bool Newton::is_rounding(double residual, double norm) const {
     for (int j = 0; j < hessian_.cols(); ++j) row += std::abs(hessian_(j, i) * z_(j));
     sum += row * row;
   }
-  return norm <= rounding_margin * epsilon * std::sqrt(sum);
+  return norm <= rounding_margin * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
 }
 
 // Moves the pinned entries to their prescribed values and the free ones along
