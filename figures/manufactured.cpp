@@ -2,24 +2,11 @@
 // degree, on a convex and on a non-convex body.
 #include "figures/figure.h"
 #include "src2d/baseline/manufactured.h"
-#include "src2d/shapes/shapes.h"
 
 namespace sem::figures {
 namespace {
 
 const int part_counts[] = {1, 2, 4};
-
-// Unit square; L of the unit square without its upper right quarter. m parts a side (a half side).
-std::vector<ScenePart<2>> body(int shape, int m) {
-  if (shape == 0) return shapes2d::make_parts(shapes2d::Rectangle{{0, 0}, {1, 1}, {m, m, m, m}, 3});
-  shapes2d::Polygon polygon;
-  polygon.vertices.resize(2, 6);
-  polygon.vertices << 0, 1, 1, 0.5, 0.5, 0,  //
-      0, 0, 0.5, 0.5, 1, 1;
-  polygon.n_parts = {2 * m, m, m, m, m, 2 * m};
-  polygon.degree = 3;
-  return shapes2d::make_parts(polygon);
-}
 
 baseline::ManufacturedError solve(int shape, int m, int degree, DistanceWeight weight) {
   MethodOptions method;
@@ -29,7 +16,7 @@ baseline::ManufacturedError solve(int shape, int m, int degree, DistanceWeight w
   method.projection.degree = degree;
   method.interior_rule.rule = InteriorRule::resolved;
   method.interior_rule.weight_tolerance = weight == DistanceWeight::sided ? 1e-4 : 3e-2;
-  return baseline::solve_manufactured(body(shape, m), method);
+  return baseline::solve_manufactured(baseline::manufactured_body(shape == 0, m), method);
 }
 
 Data compute() {

@@ -5,8 +5,13 @@
 
 #include "sem/mechanics/loads.h"
 #include "sem/solve/cholesky.h"
+#include "src2d/shapes/shapes.h"
 
 namespace sem::baseline {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
 namespace {
 
 // u and its derivatives to order 2.
@@ -22,6 +27,8 @@ Jet jet(double k, const Vec<2>& X) {
 }
 
 }  // namespace
+
+Vec<2> Manufactured::displacement(const Vec<2>& X) const { return jet(wave_number, X).u; }
 
 Mat<2> Manufactured::gradient(const Vec<2>& X) const {
   const Jet j = jet(wave_number, X);
@@ -42,52 +49,92 @@ Vec<2> Manufactured::body_force(const Vec<2>& X) const {
   return -(lambda + mu) * grad_div - mu * (j.xx + j.yy);
 }
 
+std::vector<ScenePart<2>> manufactured_body(bool convex, int m) {
+  if (convex) return shapes2d::make_parts(shapes2d::Rectangle{{0, 0}, {1, 1}, {m, m, m, m}, 3});
+  shapes2d::Polygon polygon;
+  polygon.vertices.resize(2, 6);
+  polygon.vertices << 0, 1, 1, 0.5, 0.5, 0,  //
+      0, 0, 0.5, 0.5, 1, 1;
+  polygon.n_parts = {2 * m, m, m, m, m, 2 * m};
+  polygon.degree = 3;
+  return shapes2d::make_parts(polygon);
+}
+
+VectorXd manufactured_load(const Discretization<2>& body, const Manufactured& exact) {
+  VectorXd f = VectorXd::Zero(2 * body.unknowns.size());
+  Points<2> force(2, body.quadrature.size());
+  for (int k = 0; k < force.cols(); ++k)
+    force.col(k) = body.quadrature.weight[k] * exact.body_force(body.quadrature.position.col(k));
+  Eigen::Map<Points<2>>(f.data(), 2, body.unknowns.size()) = evaluate_transposed(body.interior, force);
+  add_traction<2>(
+      body, [&](int, const Vec<2>& X, const Vec<2>& N) -> Vec<2> { return exact.stress(X) * N; }, f);
+  return f;
+}
+
+VectorXd manufactured_stress(const Discretization<2>& body, const Manufactured& exact) {
+  VectorXd f = VectorXd::Zero(2 * body.unknowns.size());
+  Eigen::Map<Points<2>> nodal(f.data(), 2, body.unknowns.size());
+  for (const auto& block : body.interior.blocks)
+    for (size_t k = 0; k < block.points.size(); ++k) {
+      const int point = block.points[k];
+      const Mat<2> P = body.quadrature.weight[point] * exact.stress(body.quadrature.position.col(point));
+      for (size_t j = 0; j < block.columns.size(); ++j)
+        for (int b = 0; b < 2; ++b) nodal.col(block.columns[j]) += block.gradient[b](k, j) * P.col(b);
+    }
+  return f;
+}
+
+ManufacturedSolution solve_manufactured(const Discretization<2>& body, Potential& V, const VectorXd& f,
+                                        const Manufactured& exact) {
+  const int n = V.size();
+  // Mean displacement and, about the middle, rotation over the points: rows R of u, of the exact one r.
+  const auto& rule = body.quadrature;
+  const Vec<2> middle = (body.boundary.box.lower + body.boundary.box.upper) / 2;
+  MatrixXd R = MatrixXd::Zero(3, n);
+  Eigen::Vector3d r = Eigen::Vector3d::Zero();
+  Points<2> turn(2, rule.size());
+  for (int k = 0; k < rule.size(); ++k) {
+    const Vec<2> arm = rule.position.col(k) - middle, u = exact.displacement(rule.position.col(k));
+    turn.col(k) = rule.weight[k] / body.boundary.box.diagonal() * Vec<2>(-arm[1], arm[0]);
+    r += Eigen::Vector3d(rule.weight[k] * u[0], rule.weight[k] * u[1], turn.col(k).dot(u));
+  }
+  for (int a = 0; a < 3; ++a) {
+    Points<2> values = turn;
+    if (a < 2) values = Vec<2>::Unit(a) * rule.weight.transpose();
+    const Points<2> row = evaluate_transposed(body.interior, values);
+    R.row(a) = Eigen::Map<const VectorXd>(row.data(), n);
+  }
+  MatrixXd K(n, n);
+  V.hessian(affine_field<2>(body.unknowns, Mat<2>::Identity(), Vec<2>::Zero()), false, K);
+  const double area = rule.weight.sum();
+  K += exact.material.youngs_modulus / (area * area) * R.transpose() * R;
+  ManufacturedSolution solution{f + exact.material.youngs_modulus / (area * area) * R.transpose() * r};
+  Cholesky cholesky(n);
+  if (!cholesky.compute(K)) throw std::runtime_error("manufactured solution: singular stiffness");
+  cholesky.solve_in_place(solution.u);
+
+  const auto energy = [&](const Mat<2>& G) { return energy_density<2>(exact.material, Mat<2>(Mat<2>::Identity() + G)); };
+  double error = 0, norm = 0;
+  for (const auto& block : body.interior.blocks)
+    for (size_t k = 0; k < block.points.size(); ++k) {
+      const int point = block.points[k];
+      const Mat<2> G = exact.gradient(rule.position.col(point));
+      error += rule.weight[point] * energy(deformation_gradient(block, int(k), solution.u) - G);
+      norm += rule.weight[point] * energy(G);
+    }
+  solution.energy = std::sqrt(error / norm);
+  return solution;
+}
+
 ManufacturedError solve_manufactured(const std::vector<ScenePart<2>>& parts, const MethodOptions& method,
                                      const Manufactured& exact) {
   Scene<2> scene;
   scene.solids.push_back({"body", exact.material, parts});
   scene.method = method;
   const auto model = build_model(scene, "");
-  const auto& d = model->discretization;
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(model->system.size());
-  Eigen::Map<Points<2>> nodal(load.data(), 2, load.size() / 2);
-  for (const auto& block : d.interior.blocks)
-    for (size_t k = 0; k < block.points.size(); ++k) {
-      const int point = block.points[k];
-      const Vec<2> force = d.quadrature.weight[point] * exact.body_force(d.quadrature.position.col(point));
-      for (size_t j = 0; j < block.columns.size(); ++j) nodal.col(block.columns[j]) += block.value(k, j) * force;
-    }
-  add_traction<2>(
-      d, [&](int, const Vec<2>& X, const Vec<2>& N) -> Vec<2> { return exact.stress(X) * N; }, load);
-
-  // z_0 is the translation, z_1 and z_2 the affine field's columns along x and y: held are entries 0, 1 and
-  // the rotation's share of z_1.
-  std::vector<int> free = {2};
-  for (int entry = 4; entry < load.size(); ++entry) free.push_back(entry);
-  Eigen::MatrixXd K(load.size(), load.size());
-  model->energy->hessian(model->system.rest, false, K);
-  const int n = int(free.size());
-  Eigen::MatrixXd A(n, n);
-  Eigen::VectorXd x(n), z = Eigen::VectorXd::Zero(load.size());
-  for (int j = 0; j < n; ++j) {
-    x[j] = load[free[j]];
-    for (int i = 0; i < n; ++i) A(i, j) = K(free[i], free[j]);
-  }
-  Cholesky cholesky(n);
-  if (!cholesky.compute(A)) throw std::runtime_error("manufactured solution: singular stiffness");
-  cholesky.solve_in_place(x);
-  for (int j = 0; j < n; ++j) z[free[j]] = x[j];
-
-  const auto energy = [&](const Mat<2>& G) { return energy_density<2>(exact.material, Mat<2>(Mat<2>::Identity() + G)); };
-  double error = 0, norm = 0;
-  for (const auto& block : d.interior.blocks)
-    for (size_t k = 0; k < block.points.size(); ++k) {
-      const int point = block.points[k];
-      const Mat<2> G = exact.gradient(d.quadrature.position.col(point));
-      error += d.quadrature.weight[point] * energy(deformation_gradient(block, int(k), z) - G);
-      norm += d.quadrature.weight[point] * energy(G);
-    }
-  return {std::sqrt(error / norm), n, d.quadrature.size()};
+  const auto& body = model->discretization;
+  const auto solution = solve_manufactured(body, *model->energy, manufactured_load(body, exact), exact);
+  return {solution.energy, 2 * body.unknowns.size() - 3, body.quadrature.size()};
 }
 
 }  // namespace sem::baseline

@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include "src2d/baseline/manufactured.h"
-#include "src2d/shapes/shapes.h"
 
 using namespace sem;
 using namespace sem::baseline;
@@ -21,20 +20,14 @@ TEST_CASE("the body force balances the stress: finite differences") {
 }
 
 TEST_CASE("sided weights: a degree more has less than half of the energy error, on a convex and a non-convex body") {
-  shapes2d::Polygon L;
-  L.vertices.resize(2, 6);
-  L.vertices << 0, 1, 1, 0.5, 0.5, 0,  //
-      0, 0, 0.5, 0.5, 1, 1;
-  L.n_parts = {2, 1, 1, 1, 1, 2};
-  L.degree = 3;
   MethodOptions method;
   method.formulation = Formulation::condensed;
   method.weights.variant = DistanceWeight::sided;
   method.weights.cutoff = 0.75;
   method.interior_rule.rule = InteriorRule::resolved;
   method.interior_rule.weight_tolerance = 1e-4;
-  for (const auto& parts : {shapes2d::make_parts(shapes2d::Rectangle{{0, 0}, {1, 1}, {1, 1, 1, 1}, 3}),
-                            shapes2d::make_parts(L)}) {
+  for (const bool convex : {true, false}) {
+    const auto parts = manufactured_body(convex, 1);
     double before = 1;
     for (const int degree : {1, 2, 3}) {
       method.projection.degree = degree;
@@ -54,6 +47,5 @@ TEST_CASE("published weights jump inside: the energy error is larger than the so
   method.projection.degree = 2;
   method.interior_rule.rule = InteriorRule::resolved;
   method.interior_rule.weight_tolerance = 1e-2;
-  const auto square = shapes2d::make_parts(shapes2d::Rectangle{{0, 0}, {1, 1}, {2, 2, 2, 2}, 3});
-  CHECK(solve_manufactured(square, method).energy > 1);
+  CHECK(solve_manufactured(manufactured_body(true, 2), method).energy > 1);
 }

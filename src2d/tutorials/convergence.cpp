@@ -1,0 +1,158 @@
+#include "src2d/tutorials/convergence.h"
+
+#include <cmath>
+#include <limits>
+
+#include "src2d/baseline/scene_model.h"
+
+namespace sem::tutorial {
+namespace {
+
+const baseline::Manufactured exact;
+
+MethodOptions method_of(Rung rung, const AttemptOptions& options) {
+  MethodOptions method;
+  method.weights.cutoff = options.cutoff;
+  method.projection.degree = options.degree;
+  if (rung < Rung::continuous_weights) {
+    method.rays.n_rays = 40;
+    method.interval.points = 40;
+  } else {
+    method.weights.variant = DistanceWeight::sided;
+    method.interior_rule.rule = InteriorRule::resolved;
+    method.interior_rule.weight_tolerance = options.tolerance;
+  }
+  if (rung == Rung::free_coefficients) method.formulation = Formulation::condensed;
+  return method;
+}
+
+double energy(const Mat<2>& G) {
+  return energy_density<2>(exact.material, Mat<2>(Mat<2>::Identity() + G));
+}
+
+// The map at rest points with the rung's gradient.
+Map<2> map_of(const Attempt& attempt, const Points<2>& X) {
+  const auto& d = attempt.body();
+  if (attempt.rung == Rung::paper || attempt.rung == Rung::free_coefficients)
+    return map_at(d, X, true);
+  return baseline::exact_map(d, X);
+}
+
+}  // namespace
+
+Attempt attempt(Rung rung, const AttemptOptions& options) {
+  Scene<2> scene;
+  scene.solids.push_back(
+      {"body", exact.material, baseline::manufactured_body(options.convex, options.m)});
+  scene.method = method_of(rung, options);
+  Attempt result{rung, build_model(scene, ""), {}};
+  if (rung == Rung::exact_gradient || rung == Rung::continuous_weights)
+    baseline::use_exact_gradient(*result.model);
+  const auto& d = result.body();
+  result.answer = solve_manufactured(d, *result.model->energy, manufactured_load(d, exact), exact);
+  return result;
+}
+
+baseline::ManufacturedSolution nearest_gradient(const Attempt& attempt) {
+  const auto& model = *attempt.model;
+  const auto& d = model.discretization;
+  MatrixXd little;  // of the stability term, for motions without energy
+  if (attempt.rung != Rung::free_coefficients)
+    little = 1e-6 * model.stability_stiffness * model.stability;
+  InternalEnergy<2> V(d.interior, d.quadrature.weight, model.materials, little);
+  return solve_manufactured(d, V, manufactured_stress(d, exact), exact);
+}
+
+Points<2> displacement(const Attempt& attempt, const VectorXd& u, const Points<2>& X) {
+  return evaluate(map_at(attempt.body(), X, false), u);
+}
+
+double displacement_error(const Attempt& attempt, const VectorXd& u) {
+  const auto& rule = attempt.body().quadrature;
+  const Points<2> own = displacement(attempt, u, rule.position);
+  double error = 0, norm = 0;
+  for (int k = 0; k < rule.size(); ++k) {
+    const Vec<2> truth = exact.displacement(rule.position.col(k));
+    error += rule.weight[k] * (own.col(k) - truth).squaredNorm();
+    norm += rule.weight[k] * truth.squaredNorm();
+  }
+  return std::sqrt(error / norm);
+}
+
+double divergence_defect(const Attempt& attempt, const VectorXd& u) {
+  const auto& d = attempt.body();
+  Mat<2> sum = Mat<2>::Zero(), norm = Mat<2>::Zero();
+  for (const auto& block : d.interior.blocks)
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      const double v = d.quadrature.weight[block.points[k]];
+      sum += v * deformation_gradient(block, int(k), u);
+      norm += v * exact.gradient(d.quadrature.position.col(block.points[k]));
+    }
+  const BoundaryRule<2> rule = boundary_rule(d);
+  const Points<2> x = displacement(attempt, u, rule.samples.position);
+  return (sum - x * rule.samples.weight.asDiagonal() * rule.normal.transpose()).norm() /
+         norm.norm();
+}
+
+VectorXd error_field(const Attempt& attempt, const VectorXd& u, const Points<2>& X) {
+  VectorXd field(X.cols());
+  double mean = 0;
+  for (const auto& block : map_of(attempt, X).blocks)
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      const Mat<2> G = exact.gradient(X.col(block.points[k]));
+      field[block.points[k]] = energy(deformation_gradient(block, int(k), u) - G);
+      mean += energy(G) / double(X.cols());
+    }
+  return (field / mean).cwiseSqrt();
+}
+
+MatrixXd weights_at(const Attempt& attempt, const Points<2>& X) {
+  const auto& d = attempt.body();
+  const auto& options = d.options.weights;
+  const auto distances = measure_distances(d.boundary, d.loops, X, options.variant, options.cutoff);
+  return dense(blending_weights(distance_weights(distances, options), d.boundary, X));
+}
+
+double tip_share(const std::string& scene, const std::vector<std::string>& overrides,
+                 int& n_unknowns) {
+  const baseline::SceneModel beam(scene, overrides);
+  n_unknowns = beam.model->n_unknowns();
+  const auto& tip = beam.scene.probes.front();
+  const auto state = beam.equilibrium();
+  return state ? beam.displacement(*state, tip.at)[1] / tip.truth.value()[1]
+               : std::numeric_limits<double>::quiet_NaN();
+}
+
+namespace {
+
+Box<2> above_title(Picture& picture, const Box<2>& rectangle, const std::string& title) {
+  picture.canvas().text({(rectangle.lower[0] + rectangle.upper[0]) / 2, rectangle.upper[1] - 12},
+                        title, {.size = Picture::text_size, .horizontal = TextStyle::Horizontal::center});
+  return {rectangle.lower, rectangle.upper - Vec<2>(0, 36)};
+}
+
+}  // namespace
+
+void draw_answer(Picture& picture, const Cells& cells, const Points<2>& u, double scale,
+                 const Box<2>& rectangle, const std::string& title) {
+  const Points<2>& rest = cells.outline;
+  Points<2> outline = rest;
+  for (int k = 0; k < rest.cols(); ++k) outline.col(k) += scale * exact.displacement(rest.col(k));
+  const Vec<2> lower = outline.rowwise().minCoeff(), upper = outline.rowwise().maxCoeff();
+  const Vec<2> margin = Vec<2>::Constant(0.2);
+  picture.set_view({lower - margin, upper + margin}, above_title(picture, rectangle, title));
+  picture.canvas().push_clip(rectangle);
+  draw_squares(picture, cells, cells.center + scale * u, 0.125);
+  picture.curve(outline, {.color = colors::black, .width = 2.5});
+  picture.canvas().pop_clip();
+}
+
+void draw_error(Picture& picture, const Cells& cells, const VectorXd& error,
+                const Box<2>& rectangle, const std::string& title) {
+  picture.set_view(cells.box, above_title(picture, rectangle, title));
+  const VectorXd shade = error.unaryExpr([](double e) { return 1 + std::log10(e) / 4; });
+  draw_cells(picture, cells, [&](int k) { return colors::viridis(shade[k]); });
+  read_values(picture, cells.center, error, "error");
+}
+
+}  // namespace sem::tutorial

@@ -1,0 +1,67 @@
+#pragma once
+// The bench of step 14: a free body with a known answer, and the formulations between the paper's
+// and the condensed one, each with one more thing replaced; the cantilever's tip; its pictures.
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "src2d/baseline/manufactured.h"
+#include "src2d/tutorials/drawing.h"
+#include "src2d/tutorials/matrices.h"
+#include "src2d/tutorials/pictures.h"
+
+namespace sem::tutorial {
+
+enum class Rung { paper, exact_gradient, continuous_weights, free_coefficients };
+constexpr Rung rungs[] = {Rung::paper, Rung::exact_gradient, Rung::continuous_weights,
+                          Rung::free_coefficients};
+const std::string rung_names[] = {"the paper's", "+ grad w in F", "+ sided weights",
+                                  "+ free coefficients"};
+
+struct AttemptOptions {
+  bool convex = true;       ///< the square or the L
+  int m = 1;                ///< parts a side (manufactured_body)
+  int degree = 3;           ///< n
+  double cutoff = 0.75;     ///< alpha, m
+  double tolerance = 1e-3;  ///< of the quadrature of sided weights; the others have 40 x 40 points
+};
+
+/// A body by a rung, with the rung's F in the model's discretization.interior, and its answer.
+struct Attempt {
+  Rung rung;
+  std::unique_ptr<Model<2>> model;
+  baseline::ManufacturedSolution answer;
+  const Discretization<2>& body() const { return model->discretization; }
+};
+Attempt attempt(Rung rung, const AttemptOptions& options);
+
+/// The u whose F is nearest to du/dX of the exact solution in the energy norm.
+baseline::ManufacturedSolution nearest_gradient(const Attempt& attempt);
+
+/// Displacement of the map at rest points, m, for u of z.
+Points<2> displacement(const Attempt& attempt, const VectorXd& u, const Points<2>& X);
+/// Its relative error in the mean square over the body.
+double displacement_error(const Attempt& attempt, const VectorXd& u);
+/// |int F dX - int x N^T da| / |int du/dX dX|: 0 if F is the gradient of a map without jumps.
+double divergence_defect(const Attempt& attempt, const VectorXd& u);
+/// sqrt of the energy density of F - du/dX over the exact one's mean, at rest points.
+VectorXd error_field(const Attempt& attempt, const VectorXd& u, const Points<2>& X);
+/// w of all parts at rest points, #points by #parts.
+MatrixXd weights_at(const Attempt& attempt, const Points<2>& X);
+
+/// A built-in scene's tip as a share of the truth that the scene states, uy / uy; NaN if there is
+/// no equilibrium. n_unknowns: of the scene.
+double tip_share(const std::string& scene, const std::vector<std::string>& overrides,
+                 int& n_unknowns);
+
+/// Squares of the body where a displacement, `scale` times as large, takes them, over the exact
+/// one's outline; a title below.
+void draw_answer(Picture& picture, const Cells& cells, const Points<2>& u, double scale,
+                 const Box<2>& rectangle, const std::string& title);
+/// Errors from 1e-4 (dark) to 1 (light) on a logarithmic scale; a title below.
+void draw_error(Picture& picture, const Cells& cells, const VectorXd& error,
+                const Box<2>& rectangle, const std::string& title);
+
+}  // namespace sem::tutorial
