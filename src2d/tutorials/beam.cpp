@@ -192,14 +192,14 @@ Answer ask(const Beam& beam, const Method& method, const Answer* reference) {
   return answer;
 }
 
-namespace {
-
-// A number in %, and the work of a load in % or "no hold".
 std::string percent(double share) {
   const double number = 100 * share;
   return rounded(number, number < 99.5 ? 2 : number < 999.5 ? 3 : 4);
 }
 
+namespace {
+
+// The work of a load in % or "no hold".
 std::string work_text(const Answer& answer, int load) {
   return answer.holds[load] ? percent(answer.work[load]) : "no hold";
 }

@@ -58,6 +58,9 @@ struct Answer {
 /// Puts the method to all tests. Without a reference the answer is its own.
 Answer ask(const Beam& beam, const Method& method, const Answer* reference);
 
+/// The share in %, without the sign, with 2 digits, all that are before the point up to 4.
+std::string percent(double share);
+
 /// A line of a table, and its headings. Loads: the work in % (the error in %).
 std::vector<std::string> headings();
 std::vector<std::string> row(const Answer& answer);

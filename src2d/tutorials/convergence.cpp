@@ -113,10 +113,8 @@ MatrixXd weights_at(const Attempt& attempt, const Points<2>& X) {
   return dense(blending_weights(distance_weights(distances, options), d.boundary, X));
 }
 
-double tip_share(const std::string& scene, const std::vector<std::string>& overrides,
-                 int& n_unknowns) {
+double tip_share(const std::string& scene, const std::vector<std::string>& overrides) {
   const baseline::SceneModel beam(scene, overrides);
-  n_unknowns = beam.model->n_unknowns();
   const auto& tip = beam.scene.probes.front();
   const auto state = beam.equilibrium();
   return state ? beam.displacement(*state, tip.at)[1] / tip.truth.value()[1]
@@ -133,26 +131,73 @@ Box<2> above_title(Picture& picture, const Box<2>& rectangle, const std::string&
 
 }  // namespace
 
-void draw_answer(Picture& picture, const Cells& cells, const Points<2>& u, double scale,
-                 const Box<2>& rectangle, const std::string& title) {
-  const Points<2>& rest = cells.outline;
-  Points<2> outline = rest;
-  for (int k = 0; k < rest.cols(); ++k) outline.col(k) += scale * exact.displacement(rest.col(k));
+Grid make_grid(bool convex, const Points<2>& outline) {
+  constexpr double away = 1e-6;
+  Grid grid{Points<2>(2, 18 * Grid::per_line), outline};
+  for (int line = 0; line < 18; ++line) {
+    double c = line / 2 / 8.0;
+    const double end = !convex && c > 0.5 ? 0.5 : 1;
+    c += c == 0 ? away : c == 1 || (!convex && c == 0.5) ? -away : 0;
+    for (int k = 0; k < Grid::per_line; ++k) {
+      const double t = away + k * (end - 2 * away) / (Grid::per_line - 1);
+      grid.X.col(line * Grid::per_line + k) = line % 2 == 0 ? Vec<2>(c, t) : Vec<2>(t, c);
+    }
+  }
+  return grid;
+}
+
+void draw_answer(Picture& picture, const Grid& grid, const Points<2>& u, const Box<2>& rectangle,
+                 const std::string& title, const Points<2>& u_boundary) {
+  constexpr double scale = 0.25;
+  Points<2> outline = grid.outline, truth = grid.X;
+  for (auto column : outline.colwise()) column += scale * exact.displacement(column);
+  for (auto column : truth.colwise()) column = exact.displacement(column);
   const Vec<2> lower = outline.rowwise().minCoeff(), upper = outline.rowwise().maxCoeff();
   const Vec<2> margin = Vec<2>::Constant(0.2);
   picture.set_view({lower - margin, upper + margin}, above_title(picture, rectangle, title));
   picture.canvas().push_clip(rectangle);
-  draw_squares(picture, cells, cells.center + scale * u, 0.125);
-  picture.curve(outline, {.color = colors::black, .width = 2.5});
+  const Points<2> x = grid.X + scale * u;
+  for (int k = 0; k < x.cols(); k += Grid::per_line)
+    picture.curve(x.middleCols(k, Grid::per_line), {.color = blue, .width = 1.5});
+  picture.curve(outline, {.color = colors::black, .width = 3.5});
+  if (u_boundary.cols() > 0)
+    picture.curve(grid.outline + scale * u_boundary, {.color = red, .width = 2.5});
   picture.canvas().pop_clip();
+  picture.hover(x, [=, X = grid.X](int k) {
+    return "X = " + coordinates(X.col(k)) + " m\nu = " + coordinates(u.col(k)) +
+           " m\nexact: " + coordinates(truth.col(k)) + " m";
+  });
 }
 
 void draw_error(Picture& picture, const Cells& cells, const VectorXd& error,
                 const Box<2>& rectangle, const std::string& title) {
-  picture.set_view(cells.box, above_title(picture, rectangle, title));
+  const Vec<2> margin = Vec<2>::Constant(0.06);
+  picture.set_view({cells.box.lower - margin, cells.box.upper + margin},
+                   above_title(picture, rectangle, title));
   const VectorXd shade = error.unaryExpr([](double e) { return 1 + std::log10(e) / 4; });
   draw_cells(picture, cells, [&](int k) { return colors::viridis(shade[k]); });
+  picture.curve(cells.outline, {.color = colors::black, .width = 2});
   read_values(picture, cells.center, error, "error");
+  color_bar(picture, "error 0.0001", "1");
+}
+
+void draw_ladder(Picture& picture, const std::vector<Climb>& ladder, const Axis& parts,
+                 const Axis& error) {
+  std::vector<Trace> curves;
+  for (std::size_t i = 0; i < ladder.size(); ++i) {
+    curves.push_back({rung_names[i], ladder[i].parts, ladder[i].answer});
+    curves.push_back({rung_names[i] + ": nearest", ladder[i].parts, ladder[i].nearest});
+  }
+  const auto content = [&](Panel& panel) {
+    panel.legend = LegendPlace::below;
+    for (std::size_t c = 0; c < curves.size(); ++c) {
+      Series style = series(int(c / 2), c % 2 == 0 ? curves[c].label : "");
+      style.width = c % 2 == 0 ? 2 : 1.2;
+      style.dash = c % 2 == 0 ? std::vector<double>{} : std::vector<double>{3, 3};
+      panel.curve(curves[c].x, curves[c].y, style);
+    }
+  };
+  draw_panel(picture, parts, error, content, curves);
 }
 
 }  // namespace sem::tutorial

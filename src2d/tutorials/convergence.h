@@ -10,15 +10,16 @@
 #include "src2d/baseline/manufactured.h"
 #include "src2d/tutorials/drawing.h"
 #include "src2d/tutorials/matrices.h"
-#include "src2d/tutorials/pictures.h"
+#include "src2d/tutorials/plots.h"
 
 namespace sem::tutorial {
 
 enum class Rung { paper, exact_gradient, continuous_weights, free_coefficients };
 constexpr Rung rungs[] = {Rung::paper, Rung::exact_gradient, Rung::continuous_weights,
                           Rung::free_coefficients};
-const std::string rung_names[] = {"the paper's", "+ grad w in F", "+ sided weights",
-                                  "+ free coefficients"};
+const std::string rung_names[] = {"the paper's", "F with grad w",
+                                  "and sided weights",
+                                  "and free coefficients"};
 
 struct AttemptOptions {
   bool convex = true;       ///< the square or the L
@@ -52,16 +53,31 @@ VectorXd error_field(const Attempt& attempt, const VectorXd& u, const Points<2>&
 MatrixXd weights_at(const Attempt& attempt, const Points<2>& X);
 
 /// A built-in scene's tip as a share of the truth that the scene states, uy / uy; NaN if there is
-/// no equilibrium. n_unknowns: of the scene.
-double tip_share(const std::string& scene, const std::vector<std::string>& overrides,
-                 int& n_unknowns);
+/// no equilibrium.
+double tip_share(const std::string& scene, const std::vector<std::string>& overrides);
 
-/// Squares of the body where a displacement, `scale` times as large, takes them, over the exact
-/// one's outline; a title below.
-void draw_answer(Picture& picture, const Cells& cells, const Points<2>& u, double scale,
-                 const Box<2>& rectangle, const std::string& title);
+/// Lines x and y = 0, 1/8, ..., 1 m inside a body, those on its boundary 1e-6 m away from it.
+struct Grid {
+  static constexpr int per_line = 49;
+  Points<2> X;  ///< line after line
+  Points<2> outline;
+};
+Grid make_grid(bool convex, const Points<2>& outline);
+
+/// The grid's lines where a displacement u of its points takes them, over the exact outline, both a
+/// quarter as large; what the map makes of the boundary itself, if it is given; a title below.
+void draw_answer(Picture& picture, const Grid& grid, const Points<2>& u, const Box<2>& rectangle,
+                 const std::string& title, const Points<2>& u_boundary = {});
 /// Errors from 1e-4 (dark) to 1 (light) on a logarithmic scale; a title below.
 void draw_error(Picture& picture, const Cells& cells, const VectorXd& error,
                 const Box<2>& rectangle, const std::string& title);
+
+/// The errors of a rung's answers and of what is nearest, against the number of parts a side.
+struct Climb {
+  std::vector<double> parts, answer, nearest;
+};
+/// Each rung's in its colour, the nearest dashed.
+void draw_ladder(Picture& picture, const std::vector<Climb>& ladder, const Axis& parts,
+                 const Axis& error);
 
 }  // namespace sem::tutorial
