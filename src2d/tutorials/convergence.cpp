@@ -3,7 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "sem/lesson/numbers.h"
 #include "src2d/baseline/scene_model.h"
+#include "src2d/tutorials/beam.h"
 
 namespace sem::tutorial {
 namespace {
@@ -39,6 +41,39 @@ Map<2> map_of(const Attempt& attempt, const Points<2>& X) {
 }
 
 }  // namespace
+
+AttemptOptions AttemptOptions::with(double parts, double n) const {
+  AttemptOptions changed = *this;
+  changed.m = int(parts);
+  changed.degree = int(n);
+  return changed;
+}
+
+Balance balance(bool convex, Cells& cells) {
+  MethodOptions method;
+  method.interior_rule.rule = InteriorRule::exact;
+  std::vector<Nurbs<1, 2>> parts;
+  for (const auto& part : baseline::manufactured_body(convex, 1)) parts.push_back(part.shape);
+  const auto d = discretize<2>({parts}, method);
+  cells = cells_inside(d.boundary, d.loops, 48);
+  Balance sum;
+  const auto add = [&](const Vec<2>& X, const Vec<2>& f) {
+    sum.force += f;
+    sum.size += f.norm();
+    sum.work += f.dot(exact.displacement(X));
+  };
+  for (int k = 0; k < d.quadrature.size(); ++k) {
+    const Vec<2> X = d.quadrature.position.col(k);
+    add(X, d.quadrature.weight[k] * exact.body_force(X));
+    sum.energy += d.quadrature.weight[k] * energy(exact.gradient(X));
+  }
+  const auto rule = boundary_rule(d);
+  for (int s = 0; s < rule.samples.size(); ++s) {
+    const Vec<2> X = rule.samples.position.col(s);
+    add(X, rule.samples.weight[s] * exact.stress(X) * rule.normal.col(s));
+  }
+  return sum;
+}
 
 Attempt attempt(Rung rung, const AttemptOptions& options) {
   Scene<2> scene;
@@ -106,18 +141,30 @@ VectorXd error_field(const Attempt& attempt, const VectorXd& u, const Points<2>&
   return (field / mean).cwiseSqrt();
 }
 
-MatrixXd weights_at(const Attempt& attempt, const Points<2>& X) {
+Trace weight_profile(const Attempt& attempt, const std::string& label) {
+  Points<2> X = Points<2>::Constant(2, 42, 0.3);
+  for (int k = 0; k < 42; ++k) X(1, k) = k < 2 ? 1e-6 * k : 0.01 * (k - 1);
   const auto& d = attempt.body();
   const auto& options = d.options.weights;
   const auto distances = measure_distances(d.boundary, d.loops, X, options.variant, options.cutoff);
-  return dense(blending_weights(distance_weights(distances, options), d.boundary, X));
+  const MatrixXd w =
+      dense(blending_weights(distance_weights(distances, options), d.boundary, X));
+  int below = 0;
+  w.row(0).maxCoeff(&below);
+  return {label, {X.row(1).begin(), X.row(1).end()}, column(w, below)};
 }
 
-double tip_share(const std::string& scene, const std::vector<std::string>& overrides) {
+Points<2> exact_displacement(const Points<2>& X) {
+  Points<2> u = X;
+  for (auto column : u.colwise()) column = exact.displacement(column);
+  return u;
+}
+
+double tip_error(const std::string& scene, const std::vector<std::string>& overrides) {
   const baseline::SceneModel beam(scene, overrides);
   const auto& tip = beam.scene.probes.front();
   const auto state = beam.equilibrium();
-  return state ? beam.displacement(*state, tip.at)[1] / tip.truth.value()[1]
+  return state ? std::abs(beam.displacement(*state, tip.at)[1] / tip.truth.value()[1] - 1)
                : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -149,13 +196,13 @@ Grid make_grid(bool convex, const Points<2>& outline) {
 void draw_answer(Picture& picture, const Grid& grid, const Points<2>& u, const Box<2>& rectangle,
                  const std::string& title, const Points<2>& u_boundary) {
   constexpr double scale = 0.25;
-  Points<2> outline = grid.outline, truth = grid.X;
-  for (auto column : outline.colwise()) column += scale * exact.displacement(column);
-  for (auto column : truth.colwise()) column = exact.displacement(column);
+  const Points<2> truth = exact_displacement(grid.X),
+                  outline = grid.outline + scale * exact_displacement(grid.outline);
   const Vec<2> lower = outline.rowwise().minCoeff(), upper = outline.rowwise().maxCoeff();
   const Vec<2> margin = Vec<2>::Constant(0.2);
-  picture.set_view({lower - margin, upper + margin}, above_title(picture, rectangle, title));
-  picture.canvas().push_clip(rectangle);
+  const Box<2> view = above_title(picture, rectangle, title);
+  picture.set_view({lower - margin, upper + margin}, view);
+  picture.canvas().push_clip(view);
   const Points<2> x = grid.X + scale * u;
   for (int k = 0; k < x.cols(); k += Grid::per_line)
     picture.curve(x.middleCols(k, Grid::per_line), {.color = blue, .width = 1.5});
@@ -181,23 +228,56 @@ void draw_error(Picture& picture, const Cells& cells, const VectorXd& error,
   color_bar(picture, "error 0.0001", "1");
 }
 
-void draw_ladder(Picture& picture, const std::vector<Climb>& ladder, const Axis& parts,
-                 const Axis& error) {
-  std::vector<Trace> curves;
-  for (std::size_t i = 0; i < ladder.size(); ++i) {
-    curves.push_back({rung_names[i], ladder[i].parts, ladder[i].answer});
-    curves.push_back({rung_names[i] + ": nearest", ladder[i].parts, ladder[i].nearest});
+Trace sweep(const std::string& label, const std::vector<double>& x,
+            const std::function<double(double)>& y) {
+  Trace trace{label, x, {}};
+  for (const double at : x) trace.y.push_back(y(at));
+  return trace;
+}
+
+std::string percent_table(const std::string& heading, const std::vector<Trace>& rows) {
+  std::vector<std::string> headings{heading};
+  for (const double x : rows.front().x) headings.push_back(rounded(x));
+  std::vector<std::vector<std::string>> cells;
+  for (const auto& row : rows) {
+    cells.push_back({row.label});
+    for (const double y : row.y) cells.back().push_back(percent(y));
+    cells.back().resize(headings.size());
   }
-  const auto content = [&](Panel& panel) {
-    panel.legend = LegendPlace::below;
-    for (std::size_t c = 0; c < curves.size(); ++c) {
-      Series style = series(int(c / 2), c % 2 == 0 ? curves[c].label : "");
-      style.width = c % 2 == 0 ? 2 : 1.2;
-      style.dash = c % 2 == 0 ? std::vector<double>{} : std::vector<double>{3, 3};
-      panel.curve(curves[c].x, curves[c].y, style);
+  return table(headings, cells);
+}
+
+std::vector<Trace> sweep_attempts(const std::string& label, const std::vector<double>& x,
+                                  const std::function<Attempt(double)>& attempt_at) {
+  Trace answer{label, x, {}}, nearest{"  its nearest F", x, {}};
+  for (const double at : x) {
+    const Attempt now = attempt_at(at);
+    answer.y.push_back(now.answer.energy);
+    nearest.y.push_back(nearest_gradient(now).energy);
+  }
+  return {answer, nearest};
+}
+
+void draw_pairs(Picture& picture, const std::vector<Chart>& charts) {
+  picture.note("solid: the answer; dashed: the nearest F that the same functions can make");
+  const Box<2> place = picture.part({0.02, 0.07}, {0.98, 0.98});
+  picture.plot(place, [&](Plot& plot) {
+    plot.shared_legend = charts.size() > 1;
+    for (int i = 0; i < int(charts.size()); ++i) {
+      const Chart& chart = charts[i];
+      Panel& panel = plot.panel(0, i);
+      panel.x = chart.x;
+      panel.y = chart.y;
+      panel.legend = LegendPlace::below;
+      for (int c = 0; c < int(chart.traces.size()); ++c) {
+        Series style = series(c / 2, c % 2 == 0 ? chart.traces[c].label : "");
+        style.width = c % 2 == 0 ? 2 : 1.2;
+        style.dash = c % 2 == 0 ? std::vector<double>{} : std::vector<double>{3, 3};
+        panel.curve(chart.traces[c].x, chart.traces[c].y, style);
+      }
+      read_curves(picture, place, panel, chart.traces);
     }
-  };
-  draw_panel(picture, parts, error, content, curves);
+  });
 }
 
 }  // namespace sem::tutorial

@@ -2,7 +2,7 @@
 // The bench of step 14: a free body with a known answer, and the formulations between the paper's
 // and the condensed one, each with one more thing replaced; the cantilever's tip; its pictures.
 
-#include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,12 +21,23 @@ const std::string rung_names[] = {"the paper's", "F with grad w",
                                   "and sided weights",
                                   "and free coefficients"};
 
+/// Integrals of the exact solution over a body: of its energy, J; of |b| and |t|, of b and t, N; of
+/// their work b . u and t . u, J.
+struct Balance {
+  double energy = 0, size = 0, work = 0;
+  Vec<2> force = Vec<2>::Zero();
+};
+/// cells: of the body.
+Balance balance(bool convex, Cells& cells);
+
 struct AttemptOptions {
   bool convex = true;       ///< the square or the L
   int m = 1;                ///< parts a side (manufactured_body)
   int degree = 3;           ///< n
   double cutoff = 0.75;     ///< alpha, m
-  double tolerance = 1e-3;  ///< of the quadrature of sided weights; the others have 40 x 40 points
+  double tolerance = 3e-4;  ///< of the quadrature of sided weights; the others have 40 x 40 points
+  /// The same with other parts and degree.
+  AttemptOptions with(double parts, double n) const;
 };
 
 /// A body by a rung, with the rung's F in the model's discretization.interior, and its answer.
@@ -49,12 +60,15 @@ double displacement_error(const Attempt& attempt, const VectorXd& u);
 double divergence_defect(const Attempt& attempt, const VectorXd& u);
 /// sqrt of the energy density of F - du/dX over the exact one's mean, at rest points.
 VectorXd error_field(const Attempt& attempt, const VectorXd& u, const Points<2>& X);
-/// w of all parts at rest points, #points by #parts.
-MatrixXd weights_at(const Attempt& attempt, const Points<2>& X);
+/// w of the part below (0.3, 0) on the line x = 0.3 m, y = 0, 1e-6, 0.01, 0.02, ..., 0.4 m.
+Trace weight_profile(const Attempt& attempt, const std::string& label);
 
-/// A built-in scene's tip as a share of the truth that the scene states, uy / uy; NaN if there is
-/// no equilibrium.
-double tip_share(const std::string& scene, const std::vector<std::string>& overrides);
+/// The exact displacement, m.
+Points<2> exact_displacement(const Points<2>& X);
+
+/// |u_y / truth - 1| of a built-in scene's tip, the truth as the scene states it (finite elements);
+/// NaN if there is no equilibrium.
+double tip_error(const std::string& scene, const std::vector<std::string>& overrides);
 
 /// Lines x and y = 0, 1/8, ..., 1 m inside a body, those on its boundary 1e-6 m away from it.
 struct Grid {
@@ -72,12 +86,15 @@ void draw_answer(Picture& picture, const Grid& grid, const Points<2>& u, const B
 void draw_error(Picture& picture, const Cells& cells, const VectorXd& error,
                 const Box<2>& rectangle, const std::string& title);
 
-/// The errors of a rung's answers and of what is nearest, against the number of parts a side.
-struct Climb {
-  std::vector<double> parts, answer, nearest;
-};
-/// Each rung's in its colour, the nearest dashed.
-void draw_ladder(Picture& picture, const std::vector<Climb>& ladder, const Axis& parts,
-                 const Axis& error);
+/// A function of every x.
+Trace sweep(const std::string& label, const std::vector<double>& x,
+            const std::function<double(double x)>& y);
+/// A row a trace, its values in %, a column an x of the first one.
+std::string percent_table(const std::string& heading, const std::vector<Trace>& rows);
+/// The errors of answers against x, and of their nearest F.
+std::vector<Trace> sweep_attempts(const std::string& label, const std::vector<double>& x,
+                                  const std::function<Attempt(double x)>& attempt_at);
+/// Panels side by side of traces that come in pairs, as above: a colour a pair, the second dashed.
+void draw_pairs(Picture& picture, const std::vector<Chart>& charts);
 
 }  // namespace sem::tutorial
