@@ -147,8 +147,7 @@ Trace weight_profile(const Attempt& attempt, const std::string& label) {
   const auto& d = attempt.body();
   const auto& options = d.options.weights;
   const auto distances = measure_distances(d.boundary, d.loops, X, options.variant, options.cutoff);
-  const MatrixXd w =
-      dense(blending_weights(distance_weights(distances, options), d.boundary, X));
+  const MatrixXd w = dense(blending_weights(distance_weights(distances, options), d.boundary, X));
   int below = 0;
   w.row(0).maxCoeff(&below);
   return {label, {X.row(1).begin(), X.row(1).end()}, column(w, below)};
@@ -172,7 +171,8 @@ namespace {
 
 Box<2> above_title(Picture& picture, const Box<2>& rectangle, const std::string& title) {
   picture.canvas().text({(rectangle.lower[0] + rectangle.upper[0]) / 2, rectangle.upper[1] - 12},
-                        title, {.size = Picture::text_size, .horizontal = TextStyle::Horizontal::center});
+                        title,
+                        {.size = Picture::text_size, .horizontal = TextStyle::Horizontal::center});
   return {rectangle.lower, rectangle.upper - Vec<2>(0, 36)};
 }
 
@@ -247,15 +247,16 @@ std::string percent_table(const std::string& heading, const std::vector<Trace>& 
   return table(headings, cells);
 }
 
-std::vector<Trace> sweep_attempts(const std::string& label, const std::vector<double>& x,
-                                  const std::function<Attempt(double)>& attempt_at) {
+void add_attempts(std::vector<Trace>& traces, const std::string& label,
+                  const std::vector<double>& x, const std::function<Attempt(double)>& attempt_at) {
   Trace answer{label, x, {}}, nearest{"  its nearest F", x, {}};
   for (const double at : x) {
     const Attempt now = attempt_at(at);
     answer.y.push_back(now.answer.energy);
     nearest.y.push_back(nearest_gradient(now).energy);
   }
-  return {answer, nearest};
+  traces.push_back(answer);
+  traces.push_back(nearest);
 }
 
 void draw_pairs(Picture& picture, const std::vector<Chart>& charts) {

@@ -17,8 +17,7 @@ namespace sem::tutorial {
 enum class Rung { paper, exact_gradient, continuous_weights, free_coefficients };
 constexpr Rung rungs[] = {Rung::paper, Rung::exact_gradient, Rung::continuous_weights,
                           Rung::free_coefficients};
-const std::string rung_names[] = {"the paper's", "F with grad w",
-                                  "and sided weights",
+const std::string rung_names[] = {"the paper's", "F with grad w", "and sided weights",
                                   "and free coefficients"};
 
 /// Integrals of the exact solution over a body: of its energy, J; of |b| and |t|, of b and t, N; of
@@ -91,9 +90,9 @@ Trace sweep(const std::string& label, const std::vector<double>& x,
             const std::function<double(double x)>& y);
 /// A row a trace, its values in %, a column an x of the first one.
 std::string percent_table(const std::string& heading, const std::vector<Trace>& rows);
-/// The errors of answers against x, and of their nearest F.
-std::vector<Trace> sweep_attempts(const std::string& label, const std::vector<double>& x,
-                                  const std::function<Attempt(double x)>& attempt_at);
+/// Appends the errors of answers against x, and of their nearest F.
+void add_attempts(std::vector<Trace>& traces, const std::string& label,
+                  const std::vector<double>& x, const std::function<Attempt(double x)>& attempt_at);
 /// Panels side by side of traces that come in pairs, as above: a colour a pair, the second dashed.
 void draw_pairs(Picture& picture, const std::vector<Chart>& charts);
 

@@ -1,24 +1,24 @@
 // Step 14: what converges, and why
 //
-//   build/release/bin/sem2d_step_14_convergence --out out/step_14       numbers, pictures
-//   build/release/bin/sem2d_step_14_convergence --set body=L            not convex
-//   build/release/bin/sem2d_step_14_convergence --interactive           alpha, n, parts as sliders
+//   build/release/bin/sem2d_step_14_convergence --out out/step_14     numbers, pictures
+//   build/release/bin/sem2d_step_14_convergence --set body=L          a body that is not convex
+//   build/release/bin/sem2d_step_14_convergence --interactive         n, parts, alpha as sliders
 //
-// New here: the paper's method, given more parts or a higher degree, does not come closer to the
-// truth. Three things stand in the way; without them the same weights and polynomials converge.
-// The test is a smooth displacement u that is known: body force b = -div P(u), traction t = P(u) N
-// on a free body, linear elasticity. A map x = X + sum_j N_j(X) z_j, F = sum_j z_j (x) B_j answers
+// New here: given more parts or a higher degree, the paper's method does not come closer to the
+// truth. Three things stand in its way; without them the same polynomials converge. The test is a
+// smooth displacement u that is known. Its body force b = -div P and traction t = P N, P = P(u) by
+// linear elasticity, load a free body, whose map x = sum_j N_j z_j, F = sum_j z_j (x) B_j answers
 //
-//   (a)  K z = f,   K = int B^T C B dX,   f = int N^T b dX + int N^T t da
-//   (b)  error: |e|_E / |grad u|_E,  e = F - grad u,  |e|_E^2 = int Psi(e) dX
-//   (c)  K z* = f*,  f* = int B^T P(u) dX:  no z has a smaller error (b) than z*
-//   (d)  int F dX = int x (x) N da        if F = grad x and x has no jumps
+//   (a)  K z = f,    K = int B^T C B dX (+ gamma S),   f = int N^T b dX + int N^T t da
+//   (b)  |e| / |grad u|,    e = F - I - grad u,    |e|^2 = int Psi(I + e) dX       the error
+//   (c)  K z* = f*,   f* = int B^T P dX:   F(z*) is the F nearest to I + grad u
+//   (d)  int F dX = int x (x) N da,   if F = grad x and x has no jumps
 //
-// By (d) for P^T x in place of x, f = f* and the answer is the best there is (Galerkin). Otherwise
-// |e|^2 = |e*|^2 + |F(z) - F(z*)|^2: what the functions cannot do, and what the equations get wrong.
+// |e|^2 = |e*|^2 + |F(z) - F(z*)|^2: what the functions cannot do, and what the equations get
+// wrong. The latter is 0 if f = f*: integrate by parts, as in (d), with P^T x in place of x.
 //
-// Things to try: --set alpha=1.4; --set degree=1 --set parts=4; --set body=L --set degree=2. Which of
-// the pictures changes its message?
+// Things to try: --set alpha=1.4, --set degree=1 --set parts=4: which message changes? --set
+// tolerance=1e-2: where does it show, and why not in [2]?
 #include "sem/lesson/lesson.h"
 #include "src2d/tutorials/beam.h"
 #include "src2d/tutorials/convergence.h"
@@ -28,15 +28,15 @@ using namespace sem::tutorial;
 
 namespace {
 
-Axis numbers(const std::string& label, const std::vector<int>& values, bool logarithmic) {
-  Axis axis{.label = label, .lower = 0.85, .upper = 1.1 * values.back(), .logarithmic = logarithmic};
-  for (const int i : values) axis.ticks.emplace_back(i, std::to_string(i));
+Axis counts(const std::string& label, int last, bool logarithmic = true) {
+  Axis axis{.label = label, .lower = 0.85, .upper = 1.1 * last, .logarithmic = logarithmic};
+  for (int i = 1; i <= last; i = logarithmic ? 2 * i : i + 1)
+    axis.ticks.emplace_back(i, std::to_string(i));
   return axis;
 }
-Axis errors(double lower, double upper) {
-  return {.label = "relative error (b)", .lower = lower, .upper = upper, .logarithmic = true};
+Axis errors(double lower, double upper, const std::string& label = "relative error (b)") {
+  return {.label = label, .lower = lower, .upper = upper, .logarithmic = true};
 }
-const Axis parts_axis = numbers("parts a side", {1, 2, 4}, true);
 std::string degree_text(int n) { return "n = " + std::to_string(n); }
 
 }  // namespace
@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
                     "u, drawn at a quarter of its size; the lines were straight and 1/8 m apart");
       });
 
-  // [2] Steps 1 to 11; the stability term has the program's default gamma, 10 n^2 E / h.
+  // [2] Steps 1 to 11, with the program's default gamma, 10 n^2 E / h.
   Attempt paper;
   std::vector<Trace> papers;
   lesson.slider("degree", options.degree, 1, 4, "n");
@@ -82,19 +82,18 @@ int main(int argc, char** argv) {
             return attempt(Rung::paper, options.with(m, n)).answer.energy;
           }));
         paper = attempt(Rung::paper, options);
-        out << percent_table("error (b) in %; parts a side:", papers)
-            << "picture: F is off by " << percent(paper.answer.energy) << " %, u by "
+        out << percent_table("error (b) in %; parts a side:", papers) << "picture: F is off by "
+            << percent(paper.answer.energy) << " %, u by "
             << percent(displacement_error(paper, paper.answer.u)) << " %\n";
       },
       [&](Picture& picture) {
-        draw_charts(picture, {{parts_axis, errors(0.1, 100), papers}},
+        draw_charts(picture, {{counts("parts a side", 4), errors(0.1, 100), papers}},
                     picture.part({0.01, 0.02}, {0.5, 0.97}));
         draw_answer(picture, grid, displacement(paper, paper.answer.u, grid.X),
                     picture.part({0.5, 0}, {1, 1}), "blue: the answer, black: exact");
       });
 
-  // [3] The F nearest to grad u belongs to an x that is not near X + u: a small F may hide a large
-  // deformation, and forces, which work on x, find the way there.
+  // [3] The F nearest to I + grad u comes with an x that is far from X + u. Forces act on x.
   baseline::ManufacturedSolution nearest;
   double nearest_u = 0;
   lesson.step(
@@ -115,8 +114,9 @@ int main(int argc, char** argv) {
                     "blue: x of z*, u off by " + percent(nearest_u) + " %; black: exact");
       });
 
-  // [4] grad w in F, step 8's (12'). On a part the published theta of all others is 0, beside it not:
-  // x jumps there, (d) fails still. Sided theta: (1 - d / alpha) times a smooth step of the side.
+  // [4] F with grad w is step 8's (12'). But on a part the published weights of all others are 0,
+  // beside it they are not: x jumps, (d) still fails. Sided ones fall smoothly with distance and
+  // side.
   Attempt kept;
   std::vector<Trace> profiles;
   lesson.slider("tolerance", options.tolerance, 1e-4, 1e-1, "of the quadrature of sided weights",
@@ -144,8 +144,9 @@ int main(int argc, char** argv) {
                     displacement(kept, kept.answer.u, grid.outline));
       });
 
-  // [5] On y = h the monomials X^a Y^b are multiples of 1, X, ..., X^n. What the edge does not see
-  // the fit sets by its own rule, whatever the body does: control points cannot change it.
+  // [5] On y = h the monomials X^a Y^b are multiples of 1, X, ..., X^n. What an edge does not see
+  // the fit sets by a rule of its own, whatever the inside does. Now the coefficients are the
+  // unknowns.
   Attempt tied, free;
   VectorXd fields[2];
   lesson.step(
@@ -157,7 +158,8 @@ int main(int argc, char** argv) {
         const Points<2> edge = samples.position.leftCols(samples.first[1]);
         for (const int n : {1, 2, 3, 4}) {
           const MatrixXd m = monomial_rows(n, edge, edge.rowwise().mean());
-          out << degree_text(n) << ": " << m.cols() << " monomials, an edge sees " << rank(m) << "\n";
+          out << degree_text(n) << ": " << m.cols() << " monomials, an edge sees " << rank(m)
+              << "\n";
         }
         for (const Attempt* now : {&tied, &free}) {
           const auto best = nearest_gradient(*now);
@@ -174,23 +176,22 @@ int main(int argc, char** argv) {
                    "nearest F, coefficients free");
       });
 
-  // [6] Each line has the changes of those above it.
+  // [6] Each line has the changes of those before it. The last is "formulation": "condensed".
   std::vector<Trace> ladder;
   lesson.step(
       "One change after another",
       [&](std::ostream& out) {
         ladder.clear();
         for (const Rung rung : rungs)
-          for (const Trace& trace :
-               sweep_attempts(rung_names[int(rung)], splits(), [&](double m) {
-                 return attempt(rung, options.with(m, options.degree));
-               }))
-            ladder.push_back(trace);
+          add_attempts(ladder, rung_names[int(rung)], splits(),
+                       [&](double m) { return attempt(rung, options.with(m, options.degree)); });
         out << percent_table("error (b) in %; parts a side:", ladder);
       },
-      [&](Picture& picture) { draw_pairs(picture, {{parts_axis, errors(1e-4, 100), ladder}}); });
+      [&](Picture& picture) {
+        draw_pairs(picture, {{counts("parts a side", 4), errors(1e-4, 100), ladder}});
+      });
 
-  // [7] "formulation": "condensed" of a scene is the last line of [6].
+  // [7] A degree more gains more than twice the parts, until the answer leaves the nearest F.
   std::vector<Trace> degrees[2];
   lesson.step(
       "The condensed formulation: degree and parts",
@@ -199,29 +200,27 @@ int main(int argc, char** argv) {
           auto& traces = degrees[convex ? 0 : 1];
           traces.clear();
           for (const int m : {1, 2})
-            for (const Trace& trace :
-                 sweep_attempts(std::to_string(m) + " a side", {1, 2, 3, 4}, [&](double n) {
-                   AttemptOptions now = options.with(m, n);
-                   now.convex = convex;
-                   return attempt(Rung::free_coefficients, now);
-                 }))
-              traces.push_back(trace);
+            add_attempts(traces, std::to_string(m) + " a side", {1, 2, 3, 4}, [&](double n) {
+              AttemptOptions now = options.with(m, n);
+              now.convex = convex;
+              return attempt(Rung::free_coefficients, now);
+            });
           out << percent_table(convex ? "square: error (b) in %; n:" : "L:", traces);
         }
       },
       [&](Picture& picture) {
-        const Axis square = numbers("degree n, square", {1, 2, 3, 4}, false),
-                   L = numbers("degree n, L", {1, 2, 3, 4}, false);
-        draw_pairs(picture, {{square, errors(1e-4, 1), degrees[0]}, {L, errors(1e-4, 1), degrees[1]}});
+        draw_pairs(picture, {{counts("degree n, square", 4, false), errors(1e-4, 1), degrees[0]},
+                             {counts("degree n, L", 4, false), errors(1e-4, 1), degrees[1]}});
       });
 
-  // [8] The rule's error makes f differ from f*. More parts at one alpha halve the error, whatever n:
-  // the functions become more, but not narrower; alpha cannot shrink, it has to cover the body.
+  // [8] A rule's error makes f differ from f*. Twice the parts halve the error whatever n is: there
+  // are more functions, but they are as wide as alpha, and that cannot shrink: it covers the body.
   std::vector<Trace> rules, cutoffs;
   lesson.step(
       "What limits it: quadrature and the cutoff",
       [&](std::ostream& out) {
-        rules = sweep_attempts("n = 3", {1e-1, 1e-2, 1e-3, 1e-4}, [&](double tolerance) {
+        rules.clear();
+        add_attempts(rules, "n = 3", {1e-1, 1e-2, 1e-3, 1e-4}, [&](double tolerance) {
           AttemptOptions now = options.with(2, 3);
           now.tolerance = tolerance;
           return attempt(Rung::free_coefficients, now);
@@ -235,12 +234,16 @@ int main(int argc, char** argv) {
                                       now.cutoff = alpha;
                                       return attempt(Rung::free_coefficients, now).answer.energy;
                                     }));
-        out << percent_table("2 parts a side; tolerance:", rules) << percent_table("alpha:", cutoffs);
+        out << percent_table("2 parts a side; tolerance:", rules)
+            << percent_table("alpha:", cutoffs);
       },
       [&](Picture& picture) {
-        draw_charts(picture, {{{.label = "tolerance of the quadrature", .logarithmic = true},
-                               errors(1e-4, 1), rules, options.tolerance},
-                              {{.label = "cutoff α, m"}, errors(1e-4, 1), cutoffs, options.cutoff}});
+        draw_charts(picture,
+                    {{{.label = "tolerance of the quadrature", .logarithmic = true},
+                      errors(1e-4, 1),
+                      rules,
+                      options.tolerance},
+                     {{.label = "cutoff α, m"}, errors(1e-4, 1), cutoffs, options.cutoff}});
       });
 
   // [9] Built-in scenes: a clamp, singular corners, large strains. Truth: graded finite elements.
@@ -260,9 +263,8 @@ int main(int argc, char** argv) {
         out << percent_table("error of u_y in %; parts along:", tips);
       },
       [&](Picture& picture) {
-        Axis y = errors(1e-3, 1);
-        y.label = "relative error of the tip's displacement";
-        draw_charts(picture, {{numbers("parts along the beam", {1, 2, 4, 8}, true), y, tips}});
+        draw_charts(picture, {{counts("parts along the beam", 8),
+                               errors(1e-3, 1, "relative error of the tip's u_y"), tips}});
       });
   return lesson.run(argc, argv);
 }
