@@ -247,9 +247,20 @@ std::string percent_table(const std::string& heading, const std::vector<Trace>& 
   return table(headings, cells);
 }
 
+Axis error_axis(double lower, double upper, const std::string& label) {
+  return {.label = label, .lower = lower, .upper = upper, .logarithmic = true};
+}
+
+Axis axis_of(const std::string& counted, int last, bool logarithmic) {
+  Axis axis{.label = counted, .lower = 0.85, .upper = 1.1 * last, .logarithmic = logarithmic};
+  for (int i = 1; i <= last; i = logarithmic ? 2 * i : i + 1)
+    axis.ticks.emplace_back(i, std::to_string(i));
+  return axis;
+}
+
 void add_attempts(std::vector<Trace>& traces, const std::string& label,
                   const std::vector<double>& x, const std::function<Attempt(double)>& attempt_at) {
-  Trace answer{label, x, {}}, nearest{"  its nearest F", x, {}};
+  Trace answer{label, x, {}}, nearest{"its nearest F", x, {}};
   for (const double at : x) {
     const Attempt now = attempt_at(at);
     answer.y.push_back(now.answer.energy);

@@ -90,6 +90,9 @@ Trace sweep(const std::string& label, const std::vector<double>& x,
             const std::function<double(double x)>& y);
 /// A row a trace, its values in %, a column an x of the first one.
 std::string percent_table(const std::string& heading, const std::vector<Trace>& rows);
+/// A logarithmic axis of errors, and one of counts from 1 to `last`: 1, 2, 4, ... if logarithmic.
+Axis error_axis(double lower, double upper, const std::string& label = "relative error (b)");
+Axis axis_of(const std::string& counted, int last, bool logarithmic = true);
 /// Appends the errors of answers against x, and of their nearest F.
 void add_attempts(std::vector<Trace>& traces, const std::string& label,
                   const std::vector<double>& x, const std::function<Attempt(double x)>& attempt_at);

@@ -26,21 +26,6 @@
 using namespace sem;
 using namespace sem::tutorial;
 
-namespace {
-
-Axis counts(const std::string& label, int last, bool logarithmic = true) {
-  Axis axis{.label = label, .lower = 0.85, .upper = 1.1 * last, .logarithmic = logarithmic};
-  for (int i = 1; i <= last; i = logarithmic ? 2 * i : i + 1)
-    axis.ticks.emplace_back(i, std::to_string(i));
-  return axis;
-}
-Axis errors(double lower, double upper, const std::string& label = "relative error (b)") {
-  return {.label = label, .lower = lower, .upper = upper, .logarithmic = true};
-}
-std::string degree_text(int n) { return "n = " + std::to_string(n); }
-
-}  // namespace
-
 int main(int argc, char** argv) {
   Lesson lesson("Step 14: what converges, and why", {{-0.2, -0.2}, {1.4, 1.4}});
 
@@ -70,15 +55,15 @@ int main(int argc, char** argv) {
   lesson.slider("degree", options.degree, 1, 4, "n");
   lesson.slider("parts", options.m, 1, 4, "a side, of the pictures");
   lesson.slider("alpha", options.cutoff, 0.55, 1.5, "cutoff, m", Lesson::Scale::logarithmic);
-  const auto splits = [&] {  // fewer in a drag
-    return lesson.quick() ? std::vector<double>{1, 2} : std::vector<double>{1, 2, 4};
+  const auto splits = [&] {
+    return lesson.quick() ? std::vector{1., 2.} : std::vector{1., 2., 4.};
   };
   lesson.step(
       "The paper's answers: the more parts, the worse",
       [&](std::ostream& out) {
         papers.clear();
         for (const int n : {1, 2, 3})
-          papers.push_back(sweep(degree_text(n), splits(), [&](double m) {
+          papers.push_back(sweep("n = " + std::to_string(n), splits(), [&](double m) {
             return attempt(Rung::paper, options.with(m, n)).answer.energy;
           }));
         paper = attempt(Rung::paper, options);
@@ -87,7 +72,7 @@ int main(int argc, char** argv) {
             << percent(displacement_error(paper, paper.answer.u)) << " %\n";
       },
       [&](Picture& picture) {
-        draw_charts(picture, {{counts("parts a side", 4), errors(0.1, 100), papers}},
+        draw_charts(picture, {{axis_of("parts a side", 4), error_axis(0.1, 100), papers}},
                     picture.part({0.01, 0.02}, {0.5, 0.97}));
         draw_answer(picture, grid, displacement(paper, paper.answer.u, grid.X),
                     picture.part({0.5, 0}, {1, 1}), "blue: the answer, black: exact");
@@ -95,14 +80,14 @@ int main(int argc, char** argv) {
 
   // [3] The F nearest to I + grad u comes with an x that is far from X + u. Forces act on x.
   baseline::ManufacturedSolution nearest;
-  double nearest_u = 0;
+  double off = 0;
   lesson.step(
       "First reason: F is not the gradient of x",
       [&](std::ostream& out) {
         nearest = nearest_gradient(paper);
-        nearest_u = displacement_error(paper, nearest.u);
-        out << "z*: F is off by " << percent(nearest.energy) << " %, u by " << percent(nearest_u)
-            << " %; (d) is off by " << error_text(divergence_defect(paper, nearest.u), 1e-4)
+        off = displacement_error(paper, nearest.u);
+        out << "z*: F is off by " << percent(nearest.energy) << " %, u by " << percent(off)
+            << " %, (d) by " << error_text(divergence_defect(paper, nearest.u), 1e-4)
             << " |int grad u dX|\n";
       },
       [&](Picture& picture) {
@@ -111,12 +96,11 @@ int main(int argc, char** argv) {
                    "F of z*, off by " + percent(nearest.energy) + " %");
         draw_answer(picture, grid, displacement(paper, nearest.u, grid.X),
                     picture.part({0.5, 0.05}, {1, 1}),
-                    "blue: x of z*, u off by " + percent(nearest_u) + " %; black: exact");
+                    "blue: x of z*, u off by " + percent(off) + " %; black: exact");
       });
 
   // [4] F with grad w is step 8's (12'). But on a part the published weights of all others are 0,
-  // beside it they are not: x jumps, (d) still fails. Sided ones fall smoothly with distance and
-  // side.
+  // beside it they are not: x jumps, (d) still fails. Sided weights (README) are continuous.
   Attempt kept;
   std::vector<Trace> profiles;
   lesson.slider("tolerance", options.tolerance, 1e-4, 1e-1, "of the quadrature of sided weights",
@@ -129,10 +113,10 @@ int main(int argc, char** argv) {
         profiles = {weight_profile(kept, "published"), weight_profile(sided, "sided")};
         for (const bool first : {true, false}) {
           const Attempt& now = first ? kept : sided;
-          const Trace& w = profiles[first ? 0 : 1];
-          out << w.label << ": w on the part " << rounded(w.y[0], 3) << ", 1e-6 m beside it "
-              << rounded(w.y[1], 3) << "\n  F is off by " << percent(now.answer.energy)
-              << " %; (d) by " << error_text(divergence_defect(now, now.answer.u), 1e-4) << "\n";
+          const auto& [name, y, w] = profiles[first ? 0 : 1];
+          out << name << ": w on the part " << rounded(w[0], 3) << ", beside it "
+              << rounded(w[1], 3) << "; answer: F is off by " << percent(now.answer.energy)
+              << " %, (d) by " << error_text(divergence_defect(now, now.answer.u), 1e-4) << "\n";
         }
       },
       [&](Picture& picture) {
@@ -145,21 +129,18 @@ int main(int argc, char** argv) {
       });
 
   // [5] On y = h the monomials X^a Y^b are multiples of 1, X, ..., X^n. What an edge does not see
-  // the fit sets by a rule of its own, whatever the inside does. Now the coefficients are the
-  // unknowns.
-  Attempt tied, free;
+  // the fit sets by a rule of its own. The remedy: the coefficients themselves are the unknowns.
   VectorXd fields[2];
   lesson.step(
       "Third reason: what a straight edge does not see",
       [&](std::ostream& out) {
-        tied = attempt(Rung::continuous_weights, options);
-        free = attempt(Rung::free_coefficients, options);
+        const Attempt tied = attempt(Rung::continuous_weights, options),
+                      free = attempt(Rung::free_coefficients, options);
         const auto& samples = tied.body().samples;
         const Points<2> edge = samples.position.leftCols(samples.first[1]);
         for (const int n : {1, 2, 3, 4}) {
           const MatrixXd m = monomial_rows(n, edge, edge.rowwise().mean());
-          out << degree_text(n) << ": " << m.cols() << " monomials, an edge sees " << rank(m)
-              << "\n";
+          out << "n = " << n << ": " << m.cols() << " monomials, an edge sees " << rank(m) << "\n";
         }
         for (const Attempt* now : {&tied, &free}) {
           const auto best = nearest_gradient(*now);
@@ -188,7 +169,7 @@ int main(int argc, char** argv) {
         out << percent_table("error (b) in %; parts a side:", ladder);
       },
       [&](Picture& picture) {
-        draw_pairs(picture, {{counts("parts a side", 4), errors(1e-4, 100), ladder}});
+        draw_pairs(picture, {{axis_of("parts a side", 4), error_axis(1e-4, 100), ladder}});
       });
 
   // [7] A degree more gains more than twice the parts, until the answer leaves the nearest F.
@@ -201,49 +182,45 @@ int main(int argc, char** argv) {
           traces.clear();
           for (const int m : {1, 2})
             add_attempts(traces, std::to_string(m) + " a side", {1, 2, 3, 4}, [&](double n) {
-              AttemptOptions now = options.with(m, n);
-              now.convex = convex;
-              return attempt(Rung::free_coefficients, now);
+              return attempt(Rung::free_coefficients,
+                             {convex, m, int(n), options.cutoff, options.tolerance});
             });
           out << percent_table(convex ? "square: error (b) in %; n:" : "L:", traces);
         }
       },
       [&](Picture& picture) {
-        draw_pairs(picture, {{counts("degree n, square", 4, false), errors(1e-4, 1), degrees[0]},
-                             {counts("degree n, L", 4, false), errors(1e-4, 1), degrees[1]}});
+        draw_pairs(picture,
+                   {{axis_of("degree n, square", 4, false), error_axis(1e-4, 1), degrees[0]},
+                    {axis_of("degree n, L", 4, false), error_axis(1e-4, 1), degrees[1]}});
       });
 
-  // [8] A rule's error makes f differ from f*. Twice the parts halve the error whatever n is: there
-  // are more functions, but they are as wide as alpha, and that cannot shrink: it covers the body.
+  // [8] A rule's error makes f differ from f*. Twice the parts about halve the error, for n = 2 as
+  // for n = 1 (finite elements: 2^-n): functions stay as wide as alpha, which covers the body.
   std::vector<Trace> rules, cutoffs;
   lesson.step(
       "What limits it: quadrature and the cutoff",
       [&](std::ostream& out) {
         rules.clear();
-        add_attempts(rules, "n = 3", {1e-1, 1e-2, 1e-3, 1e-4}, [&](double tolerance) {
-          AttemptOptions now = options.with(2, 3);
-          now.tolerance = tolerance;
-          return attempt(Rung::free_coefficients, now);
+        add_attempts(rules, "n = 3", {1e-2, 1e-3, 1e-4}, [&](double tolerance) {
+          return attempt(Rung::free_coefficients, {false, 2, 3, options.cutoff, tolerance});
         });
         cutoffs.clear();
         for (const int n : {1, 2})
-          for (const double m : splits())
-            cutoffs.push_back(sweep(degree_text(n) + ", " + rounded(m) + " a side",
-                                    {0.55, 0.75, 1.5}, [&](double alpha) {
-                                      AttemptOptions now = options.with(m, n);
-                                      now.cutoff = alpha;
-                                      return attempt(Rung::free_coefficients, now).answer.energy;
-                                    }));
-        out << percent_table("2 parts a side; tolerance:", rules)
-            << percent_table("alpha:", cutoffs);
+          for (const int m : {1, 2, 4})
+            cutoffs.push_back(
+                sweep("n = " + std::to_string(n) + ", " + std::to_string(m) + " a side",
+                      {0.55, 0.75, 1.5}, [&](double alpha) {
+                        return attempt(Rung::free_coefficients,
+                                       {options.convex, m, n, alpha, options.tolerance})
+                            .answer.energy;
+                      }));
+        out << percent_table("L, 2 a side; tolerance:", rules) << percent_table("alpha:", cutoffs);
       },
       [&](Picture& picture) {
+        const Axis rule{.label = "tolerance of the quadrature, L", .logarithmic = true};
         draw_charts(picture,
-                    {{{.label = "tolerance of the quadrature", .logarithmic = true},
-                      errors(1e-4, 1),
-                      rules,
-                      options.tolerance},
-                     {{.label = "cutoff α, m"}, errors(1e-4, 1), cutoffs, options.cutoff}});
+                    {{rule, error_axis(1e-4, 1), rules, options.tolerance},
+                     {{.label = "cutoff α, m"}, error_axis(1e-4, 1), cutoffs, options.cutoff}});
       });
 
   // [9] Built-in scenes: a clamp, singular corners, large strains. Truth: graded finite elements.
@@ -263,8 +240,8 @@ int main(int argc, char** argv) {
         out << percent_table("error of u_y in %; parts along:", tips);
       },
       [&](Picture& picture) {
-        draw_charts(picture, {{counts("parts along the beam", 8),
-                               errors(1e-3, 1, "relative error of the tip's u_y"), tips}});
+        draw_charts(picture, {{axis_of("parts along the beam", 8),
+                               error_axis(1e-3, 1, "relative error of the tip's u_y"), tips}});
       });
   return lesson.run(argc, argv);
 }
