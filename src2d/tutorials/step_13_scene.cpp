@@ -245,4 +245,4 @@ int main(int argc, char** argv) {
       });
   return lesson.run(argc, argv);
 }
-// Next: your own scene; `sem2d export blob > mine.json` is where to start.
+// Next: step_14_convergence, or your own scene: start from `sem2d export blob > mine.json`.
