@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
       });
 
   // [4] F with grad w is step 8's (12'). But on a part the published weights of all others are 0,
-  // beside it they are not: x jumps, (d) still fails. Sided weights (README) are continuous.
+  // beside it they are not: x jumps, (d) still fails. Sided weights (sided_weight.h) are continuous.
   Attempt kept;
   std::vector<Trace> profiles;
   lesson.slider("tolerance", options.tolerance, 1e-4, 1e-1, "of the quadrature of sided weights",
