@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "linear_algebra.h"
 #include "sem/solve/modes.h"
 #include "sem/solve/statics.h"
 #include "springs.h"
@@ -63,9 +64,7 @@ class LogBars : public Potential {
   }
 };
 
-double smallest_eigenvalue(const MatrixXd& A) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(A).eigenvalues()(0);
-}
+double smallest_eigenvalue(const MatrixXd& A) { return test::eigenvalues(A)(0); }
 
 }  // namespace
 
