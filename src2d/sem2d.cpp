@@ -142,7 +142,7 @@ int run(const std::string& name, std::string folder, const std::vector<std::stri
 int info(const std::string& name, const std::vector<std::string>& overrides, bool json) {
   const SceneText source = find_scene(name);
   const Scene<2> scene = load(source, overrides);
-  std::cout << model_info(scene, *build_model(scene, source.file), json);
+  std::cout << model_info(scene, *build_model(scene, source.file), json, source.file);
   return 0;
 }
 

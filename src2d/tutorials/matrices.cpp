@@ -2,18 +2,20 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
+#include <cmath>
 #include <ostream>
 
 #include "sem/lesson/numbers.h"
+#include "sem/method/least_squares.h"
 #include "sem/method/monomials.h"
 
 namespace sem::tutorial {
 
-using Decomposition = Eigen::CompleteOrthogonalDecomposition<MatrixXd>;
 using EigenSolver = Eigen::SelfAdjointEigenSolver<MatrixXd>;
+constexpr double zero_pivot = 1e-9;
+
 using Sparse = Eigen::SparseMatrix<double>;
 
 void print(std::ostream& out, const std::string& title, const MatrixXd& matrix) {
@@ -32,9 +34,9 @@ MatrixXd monomial_rows(int n, const Points<2>& X, const Vec<2>& origin) {
   return rows;
 }
 
-MatrixXd pseudo_inverse(const MatrixXd& A) { return Decomposition(A).pseudoInverse(); }
+MatrixXd pseudo_inverse(const MatrixXd& A) { return sem::pseudo_inverse(A, 1e-12).matrix; }
 
-MatrixXd least_squares(const MatrixXd& A, const MatrixXd& B) { return Decomposition(A).solve(B); }
+MatrixXd least_squares(const MatrixXd& A, const MatrixXd& B) { return sem::least_squares(A, B); }
 
 MatrixXd solve(const MatrixXd& A, const MatrixXd& B) { return A.ldlt().solve(B); }
 
@@ -52,17 +54,11 @@ VectorXd solve_free(const Sparse& K, const std::vector<bool>& free, const Vector
   return u + select * Eigen::SimplicialLDLT<Sparse>(K_free).solve(load);
 }
 
-int rank(const MatrixXd& A) {
-  Decomposition decomposition;
-  decomposition.setThreshold(1e-9);
-  return int(decomposition.compute(A).rank());
-}
+int rank(const MatrixXd& A) { return sem::pseudo_inverse(A, zero_pivot).rank; }
 
 Mat<2> rotation(const Mat<2>& A) {
-  const Eigen::JacobiSVD<Mat<2>> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Mat<2> U = svd.matrixU(), V = svd.matrixV();
-  const Vec<2> sign(1, U.determinant() * V.determinant());
-  return U * sign.asDiagonal() * V.transpose();
+  // R^T A is symmetric: sin(a) (A_00 + A_11) = cos(a) (A_10 - A_01).
+  return Eigen::Rotation2Dd(std::atan2(A(1, 0) - A(0, 1), A(0, 0) + A(1, 1))).toRotationMatrix();
 }
 
 VectorXd eigenvalues(const MatrixXd& A) {
@@ -81,9 +77,9 @@ MatrixXd kernel(const MatrixXd& A, double zero) {
 Vibrations vibrations(const MatrixXd& K, const MatrixXd& M, double zero) {
   const EigenSolver sizes(M);
   const auto seen = sizes.eigenvalues().array() > zero * sizes.eigenvalues().maxCoeff();
-  const MatrixXd V = sizes.eigenvectors().rightCols(seen.count());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(V.transpose() * K * V,
-                                                                  V.transpose() * M * V);
+  MatrixXd V = sizes.eigenvectors().rightCols(seen.count());  // V^T M V = 1:
+  for (int j = 0; j < V.cols(); ++j) V.col(j) /= std::sqrt(V.col(j).dot(M * V.col(j)));
+  const EigenSolver solver(moments(V.transpose(), VectorXd::Ones(K.rows()), (K * V).transpose()));
   return {solver.eigenvalues(), V * solver.eigenvectors()};
 }
 

@@ -20,7 +20,6 @@
 // Things to try: w4 from 0.1 to 10: the curve leaves p4 or is drawn to it, R_4 grows at the others'
 // cost. Degree 1 and 5: how many control points does x(u) feel, how many entries has its row of J?
 // per_span=2: the rank of J falls below 7, and p does not come back from q.
-#include <Eigen/QR>
 #include <cmath>
 
 #include "sem/lesson/lesson.h"
@@ -28,6 +27,7 @@
 #include "sem/nurbs/basis.h"
 #include "sem/nurbs/closest.h"
 #include "src2d/tutorials/drawing.h"
+#include "src2d/tutorials/matrices.h"
 #include "src2d/tutorials/plots.h"
 
 using namespace sem;
@@ -185,10 +185,9 @@ int main(int argc, char** argv) {
         samples = sample_boundary(make_boundary<2>({{curve}}), {.points_per_span = per_span});
         J = sample_jacobian(samples, n);
         const Eigen::MatrixXd q = J * p.transpose();  // eq. (10), #samples by 2
-        const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors(J);
-        const Eigen::MatrixXd back = factors.solve(q);
+        const Eigen::MatrixXd back = tutorial::least_squares(J, q);
         out << "J: " << J.rows() << " x " << J.cols() << ", " << (J.array() != 0).count() << " of "
-            << J.size() << " entries not 0, rank " << factors.rank() << "\np back from q, error: "
+            << J.size() << " entries not 0, rank " << tutorial::rank(J) << "\np back from q, error: "
             << error_text((back.transpose() - p).cwiseAbs().maxCoeff(), 1e-10) << "\n";
       },
       [&](Picture& picture) {

@@ -12,7 +12,7 @@ using namespace sem;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Covered area in pixels of what was drawn in black on white.
 double ink(const Image& image, int begin = 0, int end = -1) {

@@ -11,7 +11,7 @@ using namespace sem;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Box<2> extent(const std::vector<Vec<2>>& triangles) {
   Box<2> box;

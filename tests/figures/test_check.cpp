@@ -23,7 +23,7 @@ Data curve(int n_rows, double height = 1, double seconds = 0.1) {
   return data;
 }
 
-const Figure figure{"probe",
+const Figure probe{"probe",
                     "a probe",
                     2,
                     1.5,
@@ -49,23 +49,23 @@ Data changed(const Data& data, int row, double factor) {
 
 TEST_CASE("a check passes with the same numbers, and notices one that changed by 1e-5") {
   const Folder references("check_references"), out("check_out");
-  update_reference(figure, curve(40), references.path());
-  CHECK(check_figure(figure, curve(40), references.path(), out.path()).empty());
+  update_reference(probe, curve(40), references.path());
+  CHECK(check_figure(probe, curve(40), references.path(), out.path()).empty());
   const auto differences =
-      check_figure(figure, changed(curve(40), 15, 1 + 1e-5), references.path(), out.path());
+      check_figure(probe, changed(curve(40), 15, 1 + 1e-5), references.path(), out.path());
   REQUIRE(differences.size() == 1);  // the picture is the same
   CHECK(differences[0].find("curve.y: row 15") == 0);
-  CHECK(check_figure(figure, changed(curve(40), 15, 1 + 1e-8), references.path(), out.path())
+  CHECK(check_figure(probe, changed(curve(40), 15, 1 + 1e-8), references.path(), out.path())
             .empty());
   CHECK(fs::is_empty(out.path()));
 }
 
 TEST_CASE("times are not compared, neither in numbers nor in the picture, but must be there") {
   const Folder references("check_times"), out("check_times_out");
-  update_reference(figure, curve(40), references.path());
-  CHECK(check_figure(figure, curve(40, 1, 0.7), references.path(), out.path()).empty());
-  CHECK(!check_figure(figure, curve(39), references.path(), out.path()).empty());
-  Figure declared = figure;
+  update_reference(probe, curve(40), references.path());
+  CHECK(check_figure(probe, curve(40, 1, 0.7), references.path(), out.path()).empty());
+  CHECK(!check_figure(probe, curve(39), references.path(), out.path()).empty());
+  Figure declared = probe;
   declared.measured = {"y"};
   CHECK(check_figure(declared, changed(curve(40), 15, 2), references.path(), out.path()).empty());
 }
@@ -73,8 +73,8 @@ TEST_CASE("times are not compared, neither in numbers nor in the picture, but mu
 TEST_CASE(
     "a changed picture is noticed and written beside the expected one; a good one removes them") {
   const Folder references("check_picture"), out("check_picture_out");
-  update_reference(figure, curve(40), references.path());
-  Figure thick = figure;
+  update_reference(probe, curve(40), references.path());
+  Figure thick = probe;
   thick.draw = [](Plot& plot, const Data& data) {
     const DataTable& table = data["curve"];
     plot.panel().curve(table["x"], table["y"], {.width = 4});
@@ -87,7 +87,7 @@ TEST_CASE(
   for (const char* file : written) CHECK(fs::exists(out / file));
   CHECK(read_png(out / "probe_expected.png").rgb == read_png(references / "probe.png").rgb);
   CHECK(read_png(out / "probe_expected.png").rgb != read_png(out / "probe_actual.png").rgb);
-  CHECK(check_figure(figure, curve(40), references.path(), out.path()).empty());
+  CHECK(check_figure(probe, curve(40), references.path(), out.path()).empty());
   for (const char* file : written) CHECK(!fs::exists(out / file));
 }
 
@@ -110,15 +110,15 @@ TEST_CASE("large tables are thinned below 100 kB, and a change in a row left out
   CHECK(kept["curve"].value("x", 1) > 1);
   CHECK(kept.has("curve mean of 20000"));
   const int left_out = 1;
-  const auto differences = compare_numbers(kept, thinned(changed(large, left_out, 100)), figure);
+  const auto differences = compare_numbers(kept, thinned(changed(large, left_out, 100)), probe);
   REQUIRE(differences.size() == 1);
   CHECK(differences[0].find("curve mean of 20000.y") == 0);
-  CHECK(compare_numbers(kept, thinned(curve(19999)), figure).size() > 0);
+  CHECK(compare_numbers(kept, thinned(curve(19999)), probe).size() > 0);
   CHECK(thinned(curve(40))["curve"].n_rows() == 40);
 }
 
 TEST_CASE("a missing reference is an error that names its file") {
   const Folder out("check_missing");
-  CHECK_THROWS_WITH_AS(check_figure(figure, curve(40), out / "none", out.path()),
+  CHECK_THROWS_WITH_AS(check_figure(probe, curve(40), out / "none", out.path()),
                        doctest::Contains("probe.csv"), InputError);
 }

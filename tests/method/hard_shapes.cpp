@@ -1,7 +1,6 @@
 // What the hard cases of sem_stability asked of the stages.
-#include <Eigen/SVD>
-
 #include "dims.h"
+#include "linear_algebra.h"
 #include "sem/method/rays.h"
 #include "sem/method/samples.h"
 #include "solids.h"
@@ -35,7 +34,7 @@ double least_singular_value(const Boundary<Dim>& boundary) {
   const auto samples = sample_boundary(boundary, SamplingOptions{});
   const Eigen::VectorXd root = samples.weight.cwiseSqrt();
   const Eigen::MatrixXd J = root.asDiagonal() * sample_jacobian(samples, boundary.n_controls());
-  return Eigen::JacobiSVD<Eigen::MatrixXd>(J).singularValues().minCoeff();
+  return test::singular_values(J).minCoeff();
 }
 
 }  // namespace

@@ -13,7 +13,6 @@ using namespace sem::test;
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string error_of(const std::function<void(Nurbs<1, 2>&)>& spoil) {
   auto curve = circle({0, 0}, 1);

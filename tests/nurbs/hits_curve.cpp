@@ -10,8 +10,6 @@ using namespace sem::test;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 std::vector<Hit<2>> all_hits(const Nurbs<1, 2>& curve, const Line<2>& line) {
   std::vector<Hit<2>> hits;
   append_hits<2>(prepare(curve), line, -infinity, infinity, hits);

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
 #include "sem/nurbs/nurbs.h"
 
 namespace sem::test {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline double uniform(std::mt19937& random, double lower = 0, double upper = 1) {
   return lower + (upper - lower) * (double(random() >> 5) / double(1u << 27));

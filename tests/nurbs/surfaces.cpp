@@ -11,8 +11,6 @@ using namespace sem::test;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 std::vector<Hit<3>> all_hits(const PreparedNurbs<2, 3>& part, const Line<3>& line) {
   std::vector<Hit<3>> hits;
   append_hits<3>(part, line, -infinity, infinity, hits);

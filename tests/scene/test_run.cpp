@@ -46,7 +46,7 @@ void check_files(const test::Folder& folder, const RunResult& result) {
   const Json summary = Json::parse(test::content(folder / "summary.json"));
   CHECK(summary == Json::parse(result.summary_json));
   for (const char* key :
-       {"program", "status", "message", "sizes", "cost", "solver", "accuracy", "settings"})
+       {"program", "status", "message", "sizes", "stages", "solver", "accuracy", "settings"})
     CHECK(summary.contains(key));
   if (result.ok) check_numbers(summary);
   const std::string history = test::content(folder / "history.csv");
@@ -249,7 +249,8 @@ TEST_CASE("a scene that makes no model leaves no folder behind") {
 
 TEST_CASE_TEMPLATE("info is JSON for programs and lines for people", T, D2, D3) {
   constexpr int Dim = T::value;
-  const auto scene = swing<Dim>();
+  auto scene = swing<Dim>();
+  scene.output.error_estimate = true;
   const auto model = build_model(scene, "");
   const Json info = Json::parse(model_info(scene, *model, true));
   check_numbers(info);
@@ -259,6 +260,15 @@ TEST_CASE_TEMPLATE("info is JSON for programs and lines for people", T, D2, D3) 
       info["accuracy"]["quadrature"]["relative_error"][DimTraits<Dim>::volume_name];
   CHECK(error < 1e-12);
   CHECK(info["settings"]["output"]["width"] == 800);  // a default
+  CHECK(info["stages"]["rays"]["error"] == 0);
+  CHECK(info["stages"]["interior map"]["error"].get<double>() < 1e-10);
+  // 40 implicit steps, one factorisation each.
+  CHECK(info["predicted"]["factorizations"] == 40);
+  CHECK(info["predicted"]["analysis_seconds"].get<double>() > 0);
+  const double predicted = info["predicted"]["relative_error_of_linear_response"];
+  CHECK(predicted > 1e-6);
+  scene.output.error_estimate = false;
+  CHECK(Json::parse(model_info(scene, *model, true))["predicted"]["relative_error_of_linear_response"].is_string());
   const std::string text = model_info(scene, *model, false);
   CHECK(text.find("quadrature_points: ") != std::string::npos);
   CHECK(text.find("time_step: 0.01\n") != std::string::npos);

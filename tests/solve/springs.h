@@ -3,12 +3,15 @@
 
 #include <Eigen/Dense>
 #include <functional>
+#include <limits>
 #include <random>
 #include <vector>
 
 #include "sem/solve/system.h"
 
 namespace sem_test {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Particles in R^Dim, z = stacked positions, joined by springs: sum k/2 (l - L)^2.
 template <int Dim>

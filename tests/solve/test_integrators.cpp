@@ -23,7 +23,6 @@ namespace {
 
 constexpr Integrator integrators[] = {Integrator::linearly_implicit_euler,
                                       Integrator::implicit_euler, Integrator::implicit_midpoint};
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A mass on an elastic rope under gravity, swinging from the horizontal.
 struct Pendulum {

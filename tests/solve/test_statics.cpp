@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "linear_algebra.h"
 #include "sem/solve/modes.h"
 #include "sem/solve/statics.h"
 #include "springs.h"
@@ -15,8 +16,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // A bar of one unknown: c (x^2/2 - ln x), so that c (x - 1/x) = f.
 Scalar log_bar(double c) {
   Scalar bar;
@@ -26,12 +25,12 @@ Scalar log_bar(double c) {
   return bar;
 }
 
-// Two springs k from (-a, 0) and (a, 0) to the apex (0, h), unstressed there.
+// Two springs of this stiffness from (-a, 0) and (a, 0) to the apex (0, h), unstressed there.
 struct Truss {
-  explicit Truss(double a, double h, double k) {
+  explicit Truss(double a, double h, double stiffness) {
     springs.n_particles = 3;
     const double length = std::hypot(a, h);
-    springs.springs = {{0, 2, k, length}, {1, 2, k, length}};
+    springs.springs = {{0, 2, stiffness, length}, {1, 2, stiffness, length}};
     VectorXd rest(6);
     rest << -a, 0, a, 0, 0, h;
     system = make_system(springs, rest);
@@ -63,9 +62,7 @@ class LogBars : public Potential {
   }
 };
 
-double smallest_eigenvalue(const MatrixXd& A) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(A).eigenvalues()(0);
-}
+double smallest_eigenvalue(const MatrixXd& A) { return test::eigenvalues(A)(0); }
 
 }  // namespace
 

@@ -85,6 +85,14 @@ Accuracy<Dim> measure_accuracy(const Model<Dim>& model) {
       a.identity_gradient_error =
           std::max(a.identity_gradient_error, (F - Mat<Dim>::Identity()).cwiseAbs().maxCoeff());
     }
+  for (int k = 0; k < d.weights.n_points(); ++k) {
+    double sum = 0;
+    for (int e = d.weights.begin[k]; e < d.weights.begin[k + 1]; ++e) sum += d.weights.w[e];
+    a.partition_error = std::max(a.partition_error, std::abs(sum - 1));
+  }
+  const Points<Dim> on_boundary = evaluate(d.on_boundary, model.system.rest);
+  a.boundary_map_error = (on_boundary - d.samples.position).colwise().norm().maxCoeff() / size;
+  if (!d.rays.rays.empty()) a.unpaired_share = double(d.rays.n_unpaired) / double(d.rays.rays.size());
   for (const auto& fit : d.projection.parts) {
     a.worst_fit_condition = std::max(a.worst_fit_condition, fit.condition);
     a.n_borrowed += fit.borrowed;
@@ -92,6 +100,28 @@ Accuracy<Dim> measure_accuracy(const Model<Dim>& model) {
   a.pruning_error = d.pruning.relative_error;
   a.divergence_correction = d.divergence_correction;
   return a;
+}
+
+template <int Dim>
+std::vector<StageError> stage_errors(const Discretization<Dim>& d, const Accuracy<Dim>& a) {
+  const std::vector<StageError> all = {
+      {"loops", a.gap_share, "share of the inside that ends at closed gaps"},
+      {"rays", a.unpaired_share, "share of rays with a hit that found no partner"},
+      a.report.error > 0 ? StageError{"interior quadrature", a.report.error, "estimated, of what the rule must integrate"}
+                         : StageError{"interior quadrature", a.high_moment_error, "largest of the moments to degree 6"},
+      {"distance weights", a.uncovered_share, "share of the inside that no part reaches"},
+      {"blending weights", a.partition_error, "largest |sum of weights - 1|"},
+      {"projection", a.identity_error, "largest |x(X) - X| of the body at rest, by its size"},
+      {"coefficients", a.identity_error, "largest |x(X) - X| of the body at rest, by its size"},
+      {"interior map", a.identity_gradient_error, "largest |F - 1| of the body at rest"},
+      {"boundary map", a.boundary_map_error, "largest |x(X) - X| of the boundary at rest, by the size"},
+      {"divergence theorem", a.divergence_correction, "what had to be corrected, of the gradients"},
+      {"pruning", a.pruning_error, "of the map, by its norm"}};
+  std::vector<StageError> done;
+  for (const auto& line : all)
+    for (const auto& stage : d.cost)
+      if (stage.stage == line.stage) done.push_back(line);
+  return done;
 }
 
 namespace {
@@ -165,6 +195,8 @@ template double test_energy<2>(const Model<2>&, const Quadrature<2>&);
 template double test_energy<3>(const Model<3>&, const Quadrature<3>&);
 template Accuracy<2> measure_accuracy<2>(const Model<2>&);
 template Accuracy<3> measure_accuracy<3>(const Model<3>&);
+template std::vector<StageError> stage_errors<2>(const Discretization<2>&, const Accuracy<2>&);
+template std::vector<StageError> stage_errors<3>(const Discretization<3>&, const Accuracy<3>&);
 template nlohmann::ordered_json to_json<2>(const Accuracy<2>&);
 template nlohmann::ordered_json to_json<3>(const Accuracy<3>&);
 

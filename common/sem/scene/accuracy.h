@@ -8,6 +8,13 @@
 
 namespace sem {
 
+/// What a stage may have got wrong.
+struct StageError {
+  std::string stage;    ///< as in the cost
+  double error;         ///< dimensionless; 0: exact
+  std::string meaning;
+};
+
 template <int Dim>
 struct Accuracy {
   Vec<Dim> about = Vec<Dim>::Zero();  ///< point of the moments: the middle of the model's box
@@ -22,6 +29,9 @@ struct Accuracy {
   double gap_share = 0;               ///< share of the inside whose ends are closed gaps
   double identity_error = 0;          ///< largest |x(X) - X| of the undeformed map, by the size
   double identity_gradient_error = 0; ///< largest |F - I| of the undeformed map
+  double partition_error = 0;         ///< largest |sum of a point's weights - 1|
+  double boundary_map_error = 0;      ///< largest |x(X) - X| at the boundary samples at rest, by the size
+  double unpaired_share = 0;          ///< of the rays
   double worst_fit_condition = 0;     ///< over the parts' linear fits
   int n_borrowed = 0;                 ///< parts whose linear fit borrowed from their origin's set
   double divergence_correction = 0;   ///< condensed: see satisfy_divergence_theorem
@@ -36,6 +46,10 @@ double test_energy(const Model<Dim>& model, const Quadrature<Dim>& rule);
 
 template <int Dim>
 Accuracy<Dim> measure_accuracy(const Model<Dim>& model);
+
+/// One line for each stage that has run and can err; stages that are exact or that nothing measures have none.
+template <int Dim>
+std::vector<StageError> stage_errors(const Discretization<Dim>& discretization, const Accuracy<Dim>& accuracy);
 
 /// As it stands in summary.json and `info --json`.
 template <int Dim>

@@ -105,6 +105,17 @@ bool apply(const Change& change, const Model<Dim>& model, Scene<Dim>& scene) {
 }  // namespace
 
 template <int Dim>
+Scene<Dim> linear_response(Scene<Dim> scene) {
+  for (auto& solid : scene.solids) {
+    solid.material.model = MaterialModel::linear;
+    for (auto& part : solid.parts)
+      if (part.material) part.material->model = MaterialModel::linear;
+  }
+  if (scene.analysis.kind == AnalysisKind::dynamics) scene.analysis.kind = AnalysisKind::statics;
+  return scene;
+}
+
+template <int Dim>
 bool refine(Scene<Dim>& scene, Refinement refinement) {
   auto& m = scene.method;
   switch (refinement) {
@@ -172,6 +183,8 @@ ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file) {
   return result;
 }
 
+template Scene<2> linear_response<2>(Scene<2>);
+template Scene<3> linear_response<3>(Scene<3>);
 template bool refine<2>(Scene<2>&, Refinement);
 template bool refine<3>(Scene<3>&, Refinement);
 template ErrorEstimate estimate_error<2>(const Scene<2>&, const std::string&);

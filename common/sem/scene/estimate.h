@@ -40,6 +40,11 @@ struct ErrorEstimate {
 template <int Dim>
 ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file);
 
+/// The scene whose error is estimated before a run: its linear response. All materials are linear, and a dynamic
+/// analysis becomes the equilibrium under its loads.
+template <int Dim>
+Scene<Dim> linear_response(Scene<Dim> scene);
+
 /// Makes one setting finer: parts and time step halved, one degree more, rules as above. False, and nothing
 /// changed, where that cannot be: degree 4, parts whose control points pins name by index, no time step.
 template <int Dim>

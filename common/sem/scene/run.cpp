@@ -212,6 +212,14 @@ class Run {
     return cost;
   }
 
+  std::vector<StageError> all_errors() const {
+    auto errors = stage_errors(model_->discretization, accuracy_);
+    errors.push_back({"analysis", report_.residual, "worst residual, by the forces"});
+    if (!estimate_.columns.empty())
+      errors.push_back({"error estimate", relative_error(scene_, estimate_), "largest estimated error of a probe or frequency, by its value"});
+    return errors;
+  }
+
   Json summary() const {
     const auto& d = model_->discretization;
     Json json;
@@ -228,7 +236,7 @@ class Run {
                      {"map_fill", d.interior.fill()},
                      {"mass_kg", model_->total_mass()},
                      {"frames", result_.n_frames}};
-    json["cost"] = cost_json(all_cost());
+    json["stages"] = stages_json(all_cost(), all_errors());
     json["solver"] = solver_json(report_);
     json["accuracy"] = to_json(accuracy_);
     if (scene_.analysis.kind != AnalysisKind::modes)

@@ -7,9 +7,14 @@ namespace sem {
 
 using Json = nlohmann::ordered_json;
 
-Json cost_json(const std::vector<StageCost>& cost) {
-  Json json = Json::array();
-  for (const auto& stage : cost) json.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
+Json stages_json(const std::vector<StageCost>& cost, const std::vector<StageError>& errors) {
+  Json json;
+  for (const auto& stage : cost) json[stage.stage]["seconds"] = stage.seconds;
+  for (const auto& error : errors) {
+    Json& line = json[error.stage];
+    line["error"] = std::isfinite(error.error) ? Json(error.error) : Json("unknown");
+    line["error_meaning"] = error.meaning;
+  }
   return json;
 }
 

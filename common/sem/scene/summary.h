@@ -5,13 +5,15 @@
 #include <optional>
 
 #include "sem/method/discretization.h"
+#include "sem/scene/accuracy.h"
 #include "sem/scene/analysis.h"
 #include "sem/scene/estimate.h"
 #include "sem/scene/files.h"
 
 namespace sem {
 
-nlohmann::ordered_json cost_json(const std::vector<StageCost>& cost);
+/// A line for each stage: seconds, and error with its meaning where there is one.
+nlohmann::ordered_json stages_json(const std::vector<StageCost>& cost, const std::vector<StageError>& errors);
 
 nlohmann::ordered_json solver_json(const AnalysisReport& report);
 
