@@ -335,3 +335,19 @@ TEST_CASE("closest point with a weight of 1e6 takes at most a thousand times as 
   const double ordinary = seconds_of_queries(conic(1).surface);
   CHECK(seconds_of_queries(conic(1e6).surface) < 1000 * ordinary);
 }
+
+TEST_CASE("hits with weights from 1e-6 to 1e6: a line across a swept conic meets both its branches") {
+  std::mt19937 random(9);
+  for (const double w : {1e-6, 1e-3, 1.0, 1e3, 1e6})
+    for (int k = 0; k < 100; ++k) {
+      // The conic is y^2 = w^2 ((1 - y)^2 - (2 x - 1)^2).
+      const double y = w / (1 + w) * uniform(random), z = uniform(random);
+      const double half = std::sqrt((1 - y) * (1 - y) - y * y / (w * w)) / 2;
+      const auto hits = all_hits(conic(w).surface, {Vec<3>(0, y, z), Vec<3>::UnitX()});
+      CAPTURE(w);
+      CAPTURE(y);
+      REQUIRE(hits.size() == 2);
+      CHECK(std::abs(hits[0].t - (0.5 - half)) < 1e-9);
+      CHECK(std::abs(hits[1].t - (0.5 + half)) < 1e-9);
+    }
+}
