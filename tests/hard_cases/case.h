@@ -33,6 +33,16 @@ struct Case {
   }
 };
 
+/// A line of the table.
+struct Row {
+  Case one;
+  Result result;
+  double seconds;
+
+  bool failed() const { return !one.passes(result); }
+  bool refused() const { return !failed() && result.outcome == Outcome::refused; }  ///< and may
+};
+
 /// A status other than converged, or a doubt that the program reports: thrown by a case, a refusal.
 struct Refusal {
   std::string text;

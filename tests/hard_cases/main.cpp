@@ -6,22 +6,14 @@
 
 #include "sem/base/error.h"
 #include "tests/hard_cases/case.h"
+#include "tests/hard_cases/picture.h"
 
 namespace {
 
 using namespace sem;
 using namespace sem::stability;
 
-struct Row {
-  Case one;
-  Result result;
-  double seconds;
-};
-
-const char* verdict(const Row& row) {
-  if (!row.one.passes(row.result)) return "FAIL";
-  return row.result.outcome == Outcome::solved ? "pass" : "refused";
-}
+const char* verdict(const Row& row) { return row.failed() ? "FAIL" : row.refused() ? "refused" : "pass"; }
 
 const char* rule_name(Rule rule) { return rule == Rule::must_solve ? "must" : "may"; }
 
@@ -50,8 +42,8 @@ void write_csv(const std::string& file, const std::vector<Row>& rows) {
 int summarise(const std::vector<Row>& rows, bool all) {
   int n_failed = 0, n_refused = 0;
   for (const auto& row : rows) {
-    n_failed += !row.one.passes(row.result);
-    n_refused += row.one.passes(row.result) && row.result.outcome == Outcome::refused;
+    n_failed += row.failed();
+    n_refused += row.refused();
   }
   const bool too_many = all && 10 * n_refused > int(rows.size());
   std::printf("\n%zu cases: %zu solved, %d refused%s, %d failed\n", rows.size(),
@@ -68,11 +60,12 @@ int main(int argc, char** argv) try {
   bool fast = false, list = false;
   double seconds = 120;
   int n_processes = 2;
-  std::string only, csv;
+  std::string only, csv, picture;
   app.add_flag("--fast", fast, "the fast subset");
   app.add_flag("--list", list, "names the cases");
   app.add_option("--only", only, "cases whose group, name or variant contains this");
   app.add_option("--csv", csv, "also writes the table to this file");
+  app.add_option("--picture", picture, "also draws the table as a matrix (.png or .svg)");
   app.add_option("--seconds", seconds, "time limit of a case")->check(CLI::PositiveNumber);
   app.add_option("--processes", n_processes, "cases at a time")->check(CLI::Range(1, 64));
   CLI11_PARSE(app, argc, argv);
@@ -84,6 +77,7 @@ int main(int argc, char** argv) try {
     cases.push_back(one);
   }
   if (list) return 0;
+  if (!picture.empty()) check_picture_name(picture);
   if (cases.empty()) throw InputError("", "--only", only, "part of a case's name (--list)");
   std::vector<Row> rows;
   run_isolated(cases, seconds, n_processes, [&](size_t k, const Result& result, double spent) {
@@ -91,6 +85,7 @@ int main(int argc, char** argv) try {
     print(rows.back());
   });
   if (!csv.empty()) write_csv(csv, rows);
+  if (!picture.empty()) write_picture(picture, rows);
   return summarise(rows, only.empty() && !fast);
 } catch (const InputError& error) {
   std::fprintf(stderr, "sem_stability: %s\n", error.what());

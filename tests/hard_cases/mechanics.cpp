@@ -477,7 +477,7 @@ std::vector<Case> mechanics_cases() {
     }
     for (const double ratio : {1e6, 1e8}) {
       const Rule rule = ratio > 1e6 ? Rule::may_refuse : Rule::must_solve;
-      group.add(text("stiffness ratio %.0e", ratio), in_2d, rule, false, [=] { return stiffness_ratio<2>(f, ratio); });
+      group.add(text("stiffness ratio %.0e", ratio), in_2d, rule, ratio == 1e6, [=] { return stiffness_ratio<2>(f, ratio); });
       group.add(text("stiffness ratio %.0e", ratio), in_3d, rule, false, [=] { return stiffness_ratio<3>(f, ratio); });
     }
     for (const MaterialModel material : {MaterialModel::neo_log, MaterialModel::neo_ref, MaterialModel::corotated}) {

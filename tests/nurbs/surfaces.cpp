@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <chrono>
+
 #include "sem/nurbs/basis.h"
 #include "sem/nurbs/closest.h"
 #include "sem/nurbs/hits.h"
@@ -275,4 +277,75 @@ TEST_CASE("closest point of sphere and flat patch is exact, also where many poin
   CHECK(closest_point<3>(ball, Vec<3>(0, 0, 0)).distance == doctest::Approx(1).epsilon(1e-14));
   CHECK(closest_point<3>(ball, Vec<3>(0, 0, 0.5)).distance == doctest::Approx(0.5).epsilon(1e-14));
   CHECK(closest_point<3>(flat, Vec<3>(0.5, 0.5, 9), 1.0).distance == infinity);
+}
+
+namespace {
+
+/// The conic with control points (0, 0), (1/2, 1), (1, 0) and weights 1, w, 1, and the surface that it
+/// sweeps along z.
+struct Conic {
+  PreparedNurbs<1, 2> curve;
+  PreparedNurbs<2, 3> surface;
+};
+Conic conic(double w) {
+  Nurbs<1, 2> curve;
+  curve.degree = {2};
+  curve.knots[0] = {0, 0, 0, 1, 1, 1};
+  curve.control_points.resize(2, 3);
+  curve.control_points << 0, 0.5, 1, 0, 1, 0;
+  curve.weights = Eigen::Vector3d(1, w, 1);
+  Nurbs<2, 3> surface;
+  surface.degree = {2, 1};
+  surface.knots = {curve.knots[0], {0, 0, 1, 1}};
+  surface.control_points.resize(3, 6);
+  surface.control_points.topRows(2) << curve.control_points, curve.control_points;
+  surface.control_points.row(2) << 0, 0, 0, 1, 1, 1;
+  surface.weights.resize(6);
+  surface.weights << curve.weights, curve.weights;
+  return {prepare(curve), prepare(surface)};
+}
+
+/// Seconds of some queries near and below the surface.
+double seconds_of_queries(const PreparedNurbs<2, 3>& surface) {
+  std::mt19937 random(8);
+  const auto start = std::chrono::steady_clock::now();
+  for (int k = 0; k < 50; ++k)
+    REQUIRE(closest_point<3>(surface, 0.5 * (Vec<3>::Ones() + random_vector(random))).distance < 2);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+TEST_CASE("closest point with weights from 1e-6 to 1e6: a swept conic is as far as the conic itself") {
+  std::mt19937 random(7);
+  for (const double w : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
+    CAPTURE(w);
+    const Conic c = conic(w);
+    for (int k = 0; k < 100; ++k) {
+      const Vec<3> X = 0.5 * (Vec<3>::Ones() + random_vector(random));
+      const double flat = closest_point<2>(c.curve, X.head<2>()).distance;
+      CHECK(std::abs(closest_point<3>(c.surface, X).distance - flat) < 1e-12);
+    }
+  }
+}
+
+TEST_CASE("closest point with a weight of 1e6 takes at most a thousand times as long as with 1") {
+  const double ordinary = seconds_of_queries(conic(1).surface);
+  CHECK(seconds_of_queries(conic(1e6).surface) < 1000 * ordinary);
+}
+
+TEST_CASE("hits with weights from 1e-6 to 1e6: a line across a swept conic meets both its branches") {
+  std::mt19937 random(9);
+  for (const double w : {1e-6, 1e-3, 1.0, 1e3, 1e6})
+    for (int k = 0; k < 100; ++k) {
+      // The conic is y^2 = w^2 ((1 - y)^2 - (2 x - 1)^2).
+      const double y = w / (1 + w) * uniform(random), z = uniform(random);
+      const double half = std::sqrt((1 - y) * (1 - y) - y * y / (w * w)) / 2;
+      const auto hits = all_hits(conic(w).surface, {Vec<3>(0, y, z), Vec<3>::UnitX()});
+      CAPTURE(w);
+      CAPTURE(y);
+      REQUIRE(hits.size() == 2);
+      CHECK(std::abs(hits[0].t - (0.5 - half)) < 1e-9);
+      CHECK(std::abs(hits[1].t - (0.5 + half)) < 1e-9);
+    }
 }

@@ -37,14 +37,16 @@ InternalEnergy<Dim>::InternalEnergy(const Map<Dim>& map, const VectorXd& weight,
   quadratic_ = std::all_of(materials_.of_point.begin(), materials_.of_point.end(), [&](int m) {
     return is_quadratic(materials_.materials[m].model);
   });
+  int most_columns = 0;
   for (size_t b = 0; b < work_.size(); ++b) {
     const int n = int(map.blocks[b].points.size()), a = int(map.blocks[b].columns.size());
+    most_columns = std::max(most_columns, a);
     work_[b].nodes.resize(Dim, a);
     for (auto& F : work_[b].F) F.resize(Dim, n);
     work_[b].scaled.resize(n, a);
-    work_[b].product.resize(a, a);
     work_[b].tangent.resize(n);
   }
+  product_.resize(most_columns, most_columns);
 }
 
 template <int Dim>
@@ -160,6 +162,7 @@ void InternalEnergy<Dim>::hessian(const VectorXd& z, bool psd, MatrixXd& H) {
     const auto& block = map_.blocks[i];
     Workspace& work = work_[i];
     const int n = int(block.points.size()), n_columns = int(block.columns.size());
+    auto product = product_.topLeftCorner(n_columns, n_columns);
     deformation_gradients(z, block, work);
     for (int k = 0; k < n; ++k) {
       const StressDerivative<Dim> C =
@@ -168,7 +171,7 @@ void InternalEnergy<Dim>::hessian(const VectorXd& z, bool psd, MatrixXd& H) {
     }
     for (int a = 0; a < Dim; ++a)
       for (int c = a; c < Dim; ++c) {
-        work.product.setZero();
+        product.setZero();
         for (int b = 0; b < Dim; ++b) {
           for (int j = 0; j < n_columns; ++j)
             for (int k = 0; k < n; ++k) {
@@ -177,13 +180,13 @@ void InternalEnergy<Dim>::hessian(const VectorXd& z, bool psd, MatrixXd& H) {
                 sum += work.tangent[k](a + Dim * b, c + Dim * d) * block.gradient[d](k, j);
               work.scaled(k, j) = sum;
             }
-          work.product.noalias() += block.gradient[b].transpose() * work.scaled;
+          product.noalias() += block.gradient[b].transpose() * work.scaled;
         }
         for (int j = 0; j < n_columns; ++j)
           for (int m = 0; m < n_columns; ++m) {
             const int row = Dim * block.columns[m] + a, column = Dim * block.columns[j] + c;
-            H(row, column) += work.product(m, j);
-            if (c != a) H(column, row) += work.product(m, j);
+            H(row, column) += product(m, j);
+            if (c != a) H(column, row) += product(m, j);
           }
       }
   }

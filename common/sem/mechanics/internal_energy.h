@@ -51,7 +51,7 @@ class InternalEnergy : public Potential {
   struct Workspace {
     Points<Dim> nodes;                   // z of the block's columns, Dim by #columns
     std::array<Points<Dim>, Dim> F;      // column axis of F at each point, Dim by #points each
-    Eigen::MatrixXd scaled, product;     // #points by #columns, #columns by #columns
+    Eigen::MatrixXd scaled;              // #points by #columns
     std::vector<StressDerivative<Dim>> tangent;  // v_k dP/dF at each point
   };
 
@@ -73,6 +73,7 @@ class InternalEnergy : public Potential {
   Pressure<Dim> pressure_;
   bool quadratic_;
   std::vector<Workspace> work_;
+  Eigen::MatrixXd product_;  // of a block's columns, #columns by #columns: room for the largest block
   Points<Dim> stability_nodes_, stability_force_;  // Dim by n_columns
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sem/base/error.h"
+#include "sem/method/material_weights.h"
 #include "sem/method/resolved_rule.h"
 #include "sem/method/sided_weight.h"
 
@@ -38,6 +39,7 @@ Theta<Dim> measure_theta(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
   if (options.formulation == Formulation::condensed)
     distance_weight_gradients(boundary, position, distances, theta);
   add_corners(corners, position, theta);
+  keep_out_of_stiffer(options.stiffness, boundary, theta);
   return {std::move(distances), std::move(theta)};
 }
 

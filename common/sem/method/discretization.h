@@ -33,6 +33,7 @@ struct MethodOptions {
   IntervalOptions interval;
   InteriorOptions interior_rule;
   WeightOptions weights;
+  std::vector<double> stiffness = {};  ///< #parts: of their materials (material_weights.h); empty: all alike
   int corner_levels = 2;    ///< of patches at re-entrant corners, condensed only (corners.h)
   OwnPressure own_pressure = OwnPressure::automatic;
   OriginChoice origins = OriginChoice::shared_parts;

@@ -10,7 +10,10 @@
 // |w (P-X)|^2 and v = w^2 in Bernstein form, so min q_i / v_i is a second one.
 // Upper bounds come from Newton, kept inside the patch. A patch is done when a
 // bound is as far as the best point, or when the minimum m found on it is its
-// only one because q - m v is convex there.
+// only one because q - m v is convex there. Both ask for weights that are much alike: along each axis a
+// patch runs in the parameter t that makes the weights of its ends equal (Moebius),
+//   s = lower + (upper - lower) r t / (1 - t + r t).
+// Halved there, weights of 1, w, 1 become those of 1, about sqrt(w / 2), 1.
 
 namespace sem {
 namespace {
@@ -19,9 +22,13 @@ using Vec4 = Eigen::Vector4d;  // w (P - X), w
 
 constexpr int max_patches = 50000;  // only a curve of equally close points needs so many
 
+constexpr int max_halvings = 37;    // of the unit interval: 1e-11
+
 struct Patch {
   Vec<2> lower, upper;  // in [0, 1]^2 of the piece
-  double bound;         // lower bound of the distance
+  Vec<2> ratio;         // r of each axis
+  int halvings;
+  double bound;  // lower bound of the distance
 };
 
 // Kept between calls so that nothing is allocated in the steady state.
@@ -83,10 +90,12 @@ class SurfaceClosest {
       scratch_.coefficients[i] << w * (piece.points.col(i) - X_), w;
     }
     std::copy(whole(), whole() + n_, coefficients(0));
-    scratch_.patches[0] = {Vec<2>::Zero(), Vec<2>::Ones(), hull_bound(coefficients(0))};
+    rational_ = piece.weights.minCoeff() < piece.weights.maxCoeff();
+    scratch_.patches[0] = {Vec<2>::Zero(), Vec<2>::Ones(), Vec<2>::Ones(), 0, hull_bound(coefficients(0))};
+    if (rational_) balance(scratch_.patches[0], coefficients(0));
     for (int n = 1, n_patches = 0; n > 0;) {
       const Patch patch = scratch_.patches[n - 1];
-      if (hopeless(patch.bound) || (patch.upper - patch.lower).maxCoeff() < 1e-11 ||
+      if (hopeless(patch.bound) || patch.halvings > max_halvings ||
           ++n_patches > max_patches || finish(patch, coefficients(n - 1))) {
         --n;
         continue;
@@ -116,13 +125,53 @@ class SurfaceClosest {
     halve(i, 1, n + 1);
     halve(n, 1, n + 2);
     const int upper_u[4] = {1, 0, 1, 0}, upper_v[4] = {1, 1, 0, 0};
-    const Vec<2> middle = 0.5 * (patch.lower + patch.upper);
+    const Vec<2> middle = parameter(patch, Vec<2>::Constant(0.5));
     for (int k = 0; k < 4; ++k) {
       Patch& child = scratch_.patches[i + k];
       child = patch;
-      (upper_u[k] ? child.lower : child.upper)[0] = middle[0];
-      (upper_v[k] ? child.lower : child.upper)[1] = middle[1];
+      ++child.halvings;
+      for (int a = 0; a < 2; ++a) {
+        const bool upper = a == 0 ? upper_u[k] : upper_v[k];
+        const double r = patch.ratio[a];
+        (upper ? child.lower : child.upper)[a] = middle[a];
+        child.ratio[a] = upper ? 2 * r / (1 + r) : (1 + r) / 2;
+      }
       child.bound = std::max(patch.bound, hull_bound(coefficients(i + k)));
+      if (rational_) balance(child, coefficients(i + k));
+    }
+  }
+
+  // s at t.
+  static Vec<2> parameter(const Patch& patch, const Vec<2>& t) {
+    const Vec<2> along = patch.ratio.cwiseProduct(t);
+    return patch.lower + (patch.upper - patch.lower).cwiseProduct(along.cwiseQuotient(Vec<2>::Ones() - t + along));
+  }
+
+  // ds/dt at s.
+  static Vec<2> speed(const Patch& patch, const Vec<2>& s) {
+    const Vec<2> size = patch.upper - patch.lower;
+    Vec<2> speed = size;
+    for (int a = 0; a < 2; ++a) {
+      if (patch.ratio[a] == 1 || !(size[a] > 0)) continue;
+      const double share = (s[a] - patch.lower[a]) / size[a], r = patch.ratio[a];
+      speed[a] *= (share + r * (1 - share)) * (share + r * (1 - share)) / r;
+    }
+    return speed;
+  }
+
+  // Makes the products of the weights at both ends of each axis equal.
+  void balance(Patch& patch, Vec4* c) const {
+    const int p[2] = {piece_->degree[0], piece_->degree[1]}, stride[2] = {1, p[0] + 1};
+    for (int a = 0; a < 2; ++a) {
+      const int across = stride[1 - a] * p[1 - a], along = stride[a] * p[a];
+      const double begin = c[0][3] * c[across][3], end = c[along][3] * c[along + across][3];
+      if (begin == end) continue;
+      const double factor = std::pow(begin / end, 0.5 / p[a]);
+      patch.ratio[a] *= factor;
+      for (int j = 0; j <= p[1 - a]; ++j) {
+        double power = 1;
+        for (int i = 1; i <= p[a]; ++i) c[j * stride[1 - a] + i * stride[a]] *= power *= factor;
+      }
     }
   }
 
@@ -143,8 +192,7 @@ class SurfaceClosest {
     if (hopeless(std::sqrt(std::max(0.0, least)))) return true;
     const int p = 2 * piece_->degree[0], q = 2 * piece_->degree[1];
     const Vec<2> share(double(where % (p + 1)) / p, double(where / (p + 1)) / q);
-    const Vec<2> start = patch.lower + share.cwiseProduct(patch.upper - patch.lower);
-    return hopeless(bound_from_minimum(patch, descend(start, patch)));
+    return hopeless(bound_from_minimum(patch, descend(parameter(patch, share), patch)));
   }
 
   // Coefficients of q and v, of degree (2p, 2q) and times its binomials; the least q_i / v_i.
@@ -215,12 +263,13 @@ class SurfaceClosest {
     const double* Bq = detail::binomials(q);
     auto& f = scratch_.f;
     f.resize(scratch_.q.size());
-    double least_v = std::numeric_limits<double>::infinity();
+    double least_v = std::numeric_limits<double>::infinity(), largest_v = 0;
     for (int j = 0, i = 0; j <= q; ++j)
       for (int k = 0; k <= p; ++k, ++i) {
         const double inverse = 1 / (Bp[k] * Bq[j]);
         f[i] = (scratch_.q[i] - m * scratch_.v[i]) * inverse;
         least_v = std::min(least_v, scratch_.v[i] * inverse);
+        largest_v = std::max(largest_v, scratch_.v[i] * inverse);
       }
     double uu = std::numeric_limits<double>::infinity(), vv = uu, uv = 0;
     for (int j = 0; j <= q; ++j)
@@ -233,8 +282,7 @@ class SurfaceClosest {
     uu *= p * (p - 1);
     vv *= q * (q - 1);
     uv *= p * q;
-    const double v = found.jet.weight * found.jet.weight;
-    Vec<2> g = 2 * v * found.gradient.cwiseProduct(patch.upper - patch.lower).cwiseAbs();
+    Vec<2> g = 2 * largest_v * found.gradient.cwiseProduct(speed(patch, found.s)).cwiseAbs();
     for (int a = 0; a < 2; ++a)
       if (found.fixed[a]) g[a] = 0;  // f rises from this side of the patch
     // Where the patch is thin along an axis, f's curvature along it may be all rounding: there |d| <= 1.
@@ -401,6 +449,7 @@ class SurfaceClosest {
   const BezierPiece<2, 3>*piece_ = nullptr, *best_piece_ = nullptr;
   Vec<2> best_s_;
   int n_ = 0;
+  bool rational_ = false;  // weights of the piece differ
 };
 
 }  // namespace

@@ -293,17 +293,22 @@ class SurfaceHits {
     return scratch_.whole.data();
   }
 
-  // Adds a hit at local parameters if it is on the line to rounding.
+  // Adds a hit at local parameters if it is on the line to rounding, also of the parameters: with very
+  // unequal weights a surface moves by more than positions are rounded to from one double to the next.
   bool add(const Vec<2>& s, double reach) {
     const Vec<3> X = point(*piece_, Param<2>(s)) - line_.origin;
-    if ((normals_.transpose() * X).cwiseAbs().maxCoeff() > 4 * tolerance_) return false;
     Candidate candidate;
     Hit<3>& hit = candidate.hit;
     hit.t = X.dot(line_.direction) / line_.direction.squaredNorm();
+    double rounding = 4 * tolerance_;
     for (int a = 0; a < 2; ++a)
       hit.u[a] = s[a] == 1 ? piece_->upper[a]
                            : piece_->lower[a] + s[a] * (piece_->upper[a] - piece_->lower[a]);
-    const Vec<3> normal = DimTraits<3>::area_normal(point_slopes(part_, hit.u).first);
+    const auto slopes = point_slopes(part_, hit.u).first;
+    for (int a = 0; a < 2; ++a)
+      rounding += 2.2e-16 * s[a] * (piece_->upper[a] - piece_->lower[a]) * slopes.col(a).norm();
+    if ((normals_.transpose() * X).cwiseAbs().maxCoeff() > rounding) return false;
+    const Vec<3> normal = DimTraits<3>::area_normal(slopes);
     hit.tangent =
         std::abs(normal.dot(line_.direction)) <= 1e-6 * normal.norm() * line_.direction.norm();
     hit.crosses = !hit.tangent;

@@ -9,6 +9,7 @@
 #include "sem/base/error.h"
 #include "sem/mechanics/loads.h"
 #include "sem/mechanics/quadratic_forms.h"
+#include "sem/method/material_weights.h"
 #include "sem/nurbs/closest.h"
 #include "sem/nurbs/hits.h"
 
@@ -69,12 +70,27 @@ class Builder {
       solids.emplace_back();
       for (const auto& part : solid.parts) solids.back().push_back(part.shape);
     }
-    model_->discretization = discretize<Dim>(solids, scene_.method);
+    MethodOptions options = scene_.method;
+    options.stiffness = part_stiffness();
+    model_->discretization = discretize<Dim>(solids, options);
     model_->cost = model_->discretization.cost;
   }
 
-  // The solid's material, unless the part with the largest weight (the lowest
-  // index on a tie) has its own.
+  // Young's modulus at every part; empty if they are alike within each solid.
+  std::vector<double> part_stiffness() const {
+    std::vector<double> stiffness;
+    bool alike = true;
+    for (const auto& solid : scene_.solids) {
+      const size_t first = stiffness.size();
+      for (const auto& part : solid.parts) {
+        stiffness.push_back((part.material ? *part.material : solid.material).youngs_modulus);
+        alike &= stiffness.back() == stiffness[first];
+      }
+    }
+    return alike ? std::vector<double>() : stiffness;
+  }
+
+  // The solid's material, unless the part in whose region the point lies has its own.
   void assign_materials() {
     const auto& d = model_->discretization;
     auto& field = model_->materials;
@@ -87,12 +103,12 @@ class Builder {
       }
     model_->point_mass.resize(d.quadrature.size());
     for (int k = 0; k < d.quadrature.size(); ++k) {
-      const auto begin = d.weights.w.begin() + d.weights.begin[k];
-      auto end = d.weights.w.begin() + d.weights.begin[k + 1];
+      const int begin = d.weights.begin[k];
+      int n = d.weights.begin[k + 1] - begin;
       // Corner patches have no material of their own; they come last.
-      while (end > begin + 1 && d.weights.part[end - 1 - d.weights.w.begin()] >= d.boundary.n_parts()) --end;
-      const int heaviest = d.weights.part[std::max_element(begin, end) - d.weights.w.begin()];
-      const int m = heaviest < int(own.size()) && own[heaviest] >= 0 ? own[heaviest] : d.quadrature.solid[k];
+      while (n > 0 && d.weights.part[begin + n - 1] >= d.boundary.n_parts()) --n;
+      const int part = n == 0 ? -1 : part_of_region(d.options.stiffness, d.boundary.solid, &d.weights.part[begin], &d.weights.w[begin], n);
+      const int m = part >= 0 && own[part] >= 0 ? own[part] : d.quadrature.solid[k];
       field.of_point.push_back(m);
       model_->point_mass[k] = field.materials[m].density * d.quadrature.weight[k];
     }

@@ -49,7 +49,7 @@ void describe_part(Fields& fields, ScenePart<Dim>& part) {
   }
   if (fields.optional("material", part.material.has_value())) {
     if (!part.material) part.material.emplace();
-    fields.object("material", "in place of the solid's where this part's weight is the largest",
+    fields.object("material", "in place of the solid's where this part's distance weight is the largest",
                   [&](Fields& f) { describe_material(f, *part.material); });
   }
 }

@@ -17,7 +17,7 @@ template <int Dim>
 struct ScenePart {
   std::string name;  ///< "left.1"; the text before the dot is the part's group
   Nurbs<Dim - 1, Dim> shape;
-  std::optional<Material> material;  ///< in place of the solid's, where this part's weight is the largest
+  std::optional<Material> material;  ///< in place of the solid's, where this part's distance weight (theta) is the largest
 };
 
 template <int Dim>
