@@ -21,7 +21,7 @@ Checkpoint example() {
   return checkpoint;
 }
 
-std::string error_of(const std::string& path) {
+std::string reading_error(const std::string& path) {
   return test::error_of([&] { read_checkpoint(path, fingerprint("settings")); });
 }
 
@@ -52,12 +52,12 @@ TEST_CASE("checkpoint: cut at any length it is rejected") {
   const std::string whole = test::content(folder / "whole");
   for (size_t length = 0; length < whole.size(); ++length) {
     test::write(folder / "cut", whole.substr(0, length));
-    const std::string error = error_of(folder / "cut");
+    const std::string error = reading_error(folder / "cut");
     CAPTURE(length);
     CHECK(error.starts_with((folder / "cut") + ": "));
   }
   test::write(folder / "cut", whole + "x");
-  test::check_names(error_of(folder / "cut"), folder / "cut", {"damaged"});
+  test::check_names(reading_error(folder / "cut"), folder / "cut", {"damaged"});
 }
 
 TEST_CASE("checkpoint: with any byte changed it is rejected") {
@@ -70,7 +70,7 @@ TEST_CASE("checkpoint: with any byte changed it is rejected") {
       damaged[at] = char(damaged[at] ^ (1 << bit));
       test::write(folder / "damaged", damaged);
       CAPTURE(at);
-      CHECK(!error_of(folder / "damaged").empty());
+      CHECK(!reading_error(folder / "damaged").empty());
     }
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("checkpoint: a checksum that fits does not make nonsense acceptable") 
   const std::string path = folder / "checkpoint.bin";
   const auto error_of_bad = [&](const Checkpoint& bad) {
     write_checkpoint(path, bad);
-    return error_of(path);
+    return reading_error(path);
   };
   Checkpoint bad = example();
   bad.state.v.resize(3);
@@ -98,22 +98,22 @@ TEST_CASE("checkpoint: a checksum that fits does not make nonsense acceptable") 
   std::string body(8, '\0');
   body[7] = 0x7F;
   test::write(path, "sem checkpoint 1\n" + fingerprint(body) + "\n" + body);
-  test::check_names(error_of(path), path, {"damaged"});
+  test::check_names(reading_error(path), path, {"damaged"});
 }
 
 TEST_CASE("checkpoint: of other settings, of another version, or missing") {
   const test::Folder folder("checkpoint_other");
   const std::string path = folder / "checkpoint.bin";
-  test::check_names(error_of(path), path, {"no readable file"});
+  test::check_names(reading_error(path), path, {"no readable file"});
   write_checkpoint(path, example());
   test::check_names(test::error_of([&] { read_checkpoint(path, fingerprint("others")); }), path,
                     {"settings", "other settings"});
   std::string later = test::content(path);
   later.replace(later.find(" 1\n"), 3, " 2\n");
   test::write(path, later);
-  test::check_names(error_of(path), path, {"version"});
+  test::check_names(reading_error(path), path, {"version"});
   test::write(path, "");
-  test::check_names(error_of(path), path, {"no checkpoint"});
+  test::check_names(reading_error(path), path, {"no checkpoint"});
 }
 
 TEST_CASE("fingerprint: FNV-1a of 64 bits") {
