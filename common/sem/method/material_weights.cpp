@@ -1,6 +1,7 @@
 #include "sem/method/material_weights.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace sem {
 namespace {
@@ -16,9 +17,9 @@ struct Largest {
 template <int Dim>
 class Entries {
  public:
-  Entries(const std::vector<double>& stiffness, const Boundary<Dim>& boundary, const DistanceWeights<Dim>& theta,
-          int point)
-      : stiffness_(stiffness), boundary_(boundary), theta_(theta), begin_(theta.begin[point]),
+  Entries(const std::vector<double>& stiffness, const std::vector<double>& softest, const Boundary<Dim>& boundary,
+          const DistanceWeights<Dim>& theta, int point)
+      : stiffness_(stiffness), softest_(softest), boundary_(boundary), theta_(theta), begin_(theta.begin[point]),
         end_(theta.begin[point + 1]) {}
 
   // 1 - S / O of entry e and its gradient.
@@ -41,14 +42,13 @@ class Entries {
 
   bool stiffer(int f, int e) const {
     if (is_patch(f)) return false;
-    const int i = theta_.part[f], solid = boundary_.solid[i];
-    if (!is_patch(e)) return boundary_.solid[theta_.part[e]] == solid && stiffness_[i] > stiffness_[theta_.part[e]];
-    for (int j = 0; j < boundary_.n_parts(); ++j)
-      if (boundary_.solid[j] == solid && stiffness_[j] < stiffness_[i]) return true;
-    return false;
+    const int i = theta_.part[f], j = theta_.part[e], solid = boundary_.solid[i];
+    if (is_patch(e)) return stiffness_[i] > softest_[solid];
+    return boundary_.solid[j] == solid && stiffness_[i] > stiffness_[j];
   }
 
   const std::vector<double>& stiffness_;
+  const std::vector<double>& softest_;
   const Boundary<Dim>& boundary_;
   const DistanceWeights<Dim>& theta_;
   int begin_, end_;
@@ -60,6 +60,9 @@ template <int Dim>
 void keep_out_of_stiffer(const std::vector<double>& stiffness, const Boundary<Dim>& boundary,
                          DistanceWeights<Dim>& theta) {
   if (stiffness.empty()) return;
+  std::vector<double> softest(boundary.n_solids, std::numeric_limits<double>::infinity());
+  for (int i = 0; i < boundary.n_parts(); ++i)
+    softest[boundary.solid[i]] = std::min(softest[boundary.solid[i]], stiffness[i]);
   DistanceWeights<Dim> kept = theta;
   kept.begin = {0};
   kept.part.clear();
@@ -67,7 +70,7 @@ void keep_out_of_stiffer(const std::vector<double>& stiffness, const Boundary<Di
   kept.gradient.clear();
   kept.piece.clear();
   for (size_t k = 0; k + 1 < theta.begin.size(); ++k) {
-    const Entries<Dim> entries(stiffness, boundary, theta, int(k));
+    const Entries<Dim> entries(stiffness, softest, boundary, theta, int(k));
     for (int e = theta.begin[k]; e < theta.begin[k + 1]; ++e) {
       const Largest<Dim> factor = entries.factor(e);
       if (!(factor.theta > 0)) continue;
