@@ -22,7 +22,7 @@ Data compute() {
                                           "method.quadrature.rays=" + std::to_string(5 * m),
                                           "method.origins=\"" + std::string(origins[one]) + "\""});
       const System& system = bar.model->system;
-      Eigen::MatrixXd K(system.size(), system.size());
+      SymmetricMatrix K = system.potential->new_hessian();
       const double assembly =
           fastest_of(3, [&] { system.potential->hessian(system.rest, false, K); });
       TimeStepper stepper(system, 1e-3, Integrator::linearly_implicit_euler);

@@ -14,7 +14,7 @@ void add_entries(Data& data, const std::string& suffix, const Discretization<2>&
   auto& table = data.add("entries" + suffix, {"row", "column", "degree", "value"});
   const int n_rows = monomials.size() + 1;
   for (int i = 0; i < body.boundary.n_parts(); ++i) {
-    const PartFit& fit = body.projection.parts[i];
+    const PartFit fit = fit_on_controls(body.projection, i);
     const double largest = fit.coefficients.cwiseAbs().maxCoeff();
     for (size_t c = 0; c < fit.columns.size(); ++c) {
       if (std::abs(fit.translation[c]) > zero)

@@ -18,10 +18,10 @@ StiffnessPattern stiffness_pattern(const Discretization<2>& d) {
     for (const int i : columns)
       for (const int j : columns) matrix(i, j) = true;
   };
-  for (const auto& block : d.interior.blocks) couple(pattern.elastic, block.columns);
+  for (const auto& block : d.interior.blocks) couple(pattern.elastic, unknowns_of(d.interior, block));
   for (const auto& block : d.on_boundary.blocks)
     for (const int s : block.points) {
-      std::vector<int> columns = block.columns;
+      std::vector<int> columns = unknowns_of(d.on_boundary, block);
       columns.insert(columns.end(), d.samples.column.begin() + d.samples.row[s],
                      d.samples.column.begin() + d.samples.row[s + 1]);
       couple(pattern.stability, columns);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sem/solve/cholesky.h"
+#include "sem/solve/sparse_cholesky.h"
 
 namespace sem {
 namespace {
@@ -63,9 +63,9 @@ Box<2> swing_box(const Scene<2>& scene, const Box<2>& rest, const Vec<2>& pivot)
 // dx/dX at every quadrature point.
 std::vector<Mat<2>> deformation_gradients(const Map<2>& map, const VectorXd& z) {
   std::vector<Mat<2>> F(map.n_points);
-  const Eigen::Map<const Points<2>> nodes(z.data(), 2, map.n_columns);
+  const Points<2> y = coefficients(map, z);
   for (const auto& block : map.blocks) {
-    const Points<2> local = nodes(Eigen::all, block.columns);
+    const Points<2> local = y(Eigen::all, block.columns);
     for (int b = 0; b < 2; ++b) {
       const Points<2> column = local * block.gradient[b].transpose();
       for (size_t k = 0; k < block.points.size(); ++k) F[block.points[k]].col(b) = column.col(k);
@@ -87,21 +87,16 @@ double von_mises(const Material& material, const Mat<2>& F) {
 // come out large, but carry no stress.
 VectorXd linear_displacement(const Model<2>& model) {
   const System& system = model.system;
-  const int n = system.size(), n_free = int(system.free.size());
-  Eigen::MatrixXd K(n, n);
+  SymmetricMatrix K = system.potential->new_hessian();
   system.potential->hessian(system.rest, true, K);
   VectorXd u = model.target - system.rest;
   VectorXd residual = system.load - K * u;
   const double largest_mass = system.mass.diagonal().maxCoeff();
-  const double little = largest_mass > 0 ? 1e-8 * K.diagonal().maxCoeff() / largest_mass : 0;
-  const Eigen::MatrixXd A =
-      K(system.free, system.free) + little * system.mass(system.free, system.free);
-  VectorXd x = residual(system.free);
-  Cholesky cholesky(n_free);
-  if (!cholesky.compute(A)) return VectorXd::Zero(n);
-  cholesky.solve_in_place(x);
-  u(system.free) += x;
-  return u;
+  if (largest_mass > 0) K.add(1e-8 * K.diagonal().maxCoeff() / largest_mass, system.mass);
+  SparseCholesky cholesky(K.plan(), K.components(), system.free);
+  if (!cholesky.compute(K)) return VectorXd::Zero(system.size());
+  cholesky.solve_in_place(residual);
+  return u + residual;
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ Attempt attempt(Rung rung, const AttemptOptions& options) {
 baseline::ManufacturedSolution nearest_gradient(const Attempt& attempt) {
   const auto& model = *attempt.model;
   const auto& d = model.discretization;
-  MatrixXd little;  // of the stability term, for motions without energy
+  SymmetricMatrix little;  // of the stability term, for motions without energy
   if (attempt.rung != Rung::free_coefficients)
     little = 1e-6 * model.stability_stiffness * model.stability;
   InternalEnergy<2> V(d.interior, d.quadrature.weight, model.materials, little);
@@ -117,10 +117,11 @@ double displacement_error(const Attempt& attempt, const VectorXd& u) {
 double divergence_defect(const Attempt& attempt, const VectorXd& u) {
   const auto& d = attempt.body();
   Mat<2> sum = Mat<2>::Zero(), norm = Mat<2>::Zero();
+  const Points<2> y = coefficients(d.interior, u);
   for (const auto& block : d.interior.blocks)
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       const double v = d.quadrature.weight[block.points[k]];
-      sum += v * deformation_gradient(block, int(k), u);
+      sum += v * deformation_gradient(block, int(k), y);
       norm += v * exact.gradient(d.quadrature.position.col(block.points[k]));
     }
   const BoundaryRule<2> rule = boundary_rule(d);
@@ -132,10 +133,12 @@ double divergence_defect(const Attempt& attempt, const VectorXd& u) {
 VectorXd error_field(const Attempt& attempt, const VectorXd& u, const Points<2>& X) {
   VectorXd field(X.cols());
   double mean = 0;
-  for (const auto& block : map_of(attempt, X).blocks)
+  const Map<2> map = map_of(attempt, X);
+  const Points<2> y = coefficients(map, u);
+  for (const auto& block : map.blocks)
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       const Mat<2> G = exact.gradient(X.col(block.points[k]));
-      field[block.points[k]] = energy(deformation_gradient(block, int(k), u) - G);
+      field[block.points[k]] = energy(deformation_gradient(block, int(k), y) - G);
       mean += energy(G) / double(X.cols());
     }
   return (field / mean).cwiseSqrt();

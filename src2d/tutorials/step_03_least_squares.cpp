@@ -211,7 +211,7 @@ int main(int argc, char** argv) {
         {{segment({-2, 2 * d}, {2, 2 * d}), segment({-2, -1}, {-2, 1}), segment({2, -1}, {2, 1})}});
     const auto samples = sample_boundary(boundary, {.points_per_span = 5});
     const auto origins = origins_from_sets<2>({{0, 1, 2}}, {0, 0, 0}, samples);  // (0, d)
-    const PartFit bar = project(samples, origins, {.degree = n, .fit = kind}).parts[0];
+    const PartFit bar = fit_on_controls(project(samples, origins, {.degree = n, .fit = kind}), 0);
     const MatrixXd p = rest_controls(boundary)(Eigen::all, bar.columns);
     return Mat<2>(p * bar.coefficients.topRows(2).transpose() / bar.scale);
   };

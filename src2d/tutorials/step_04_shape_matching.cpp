@@ -129,7 +129,7 @@ int main(int argc, char** argv) {
         const MatrixXd once = M * least_squares(weighted(M), weighted(P));
         out << "left, all degrees at once: " << rms((P - once) * p.transpose()) << "\n";
         const auto origins = origins_from_sets<2>({{0}}, {0}, samples);
-        const auto part = project(samples, origins, {.degree = n}).parts[0];
+        const auto part = fit_on_controls(project(samples, origins, {.degree = n}), 0);
         MatrixXd x = monomial_rows(n, (samples.position.colwise() - Xbar) / part.scale, {0, 0}) *
                      part.coefficients;
         x.leftCols(3) += x.rightCols(3);

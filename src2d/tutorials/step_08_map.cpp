@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
         row = Eigen::RowVectorXd::Zero(12);
         Eigen::RowVectorXd m(projection.monomials.size());
         for (int i = 0; i < 3; ++i) {
-          const PartFit& fit = projection.parts[i];
+          const PartFit fit = fit_on_controls(projection, i);
           projection.monomials.values((X - origins.position.col(0)) / fit.scale, m);
           const Eigen::RowVectorXd row_i = m * fit.coefficients + fit.translation;
           opinions.col(i) = z(Eigen::all, fit.columns) * row_i.transpose();  // x_i = m c_i + t_i
@@ -223,9 +223,8 @@ int main(int argc, char** argv) {
         const MaterialField linear{{{MaterialModel::linear, 1}}, std::vector<int>(rule.size(), 0)};
         for (const bool exact : {false, true}) {
           const auto map = map_at(rule.position, exact);
-          MatrixXd H(24, 24);
-          InternalEnergy<2>(map, rule.weight, linear, MatrixXd::Zero(12, 12))
-              .hessian(VectorXd::Zero(24), false, H);
+          const MatrixXd H = InternalEnergy<2>(map, rule.weight, linear, MatrixXd::Zero(12, 12))
+                                 .dense_hessian(VectorXd::Zero(24));
           K[exact] = tie.transpose() * H * tie;
         }
         const MatrixXd mass = expand(mass_matrix(map_at(rule.position, false), rule.weight), 2);

@@ -200,8 +200,7 @@ int main(int argc, char** argv) {
       [&](std::ostream& out) {
         auto energy = library(material);
         const VectorXd d = VectorXd::LinSpaced(24, 1, 24).array().sin();  // any direction
-        MatrixXd K(24, 24);
-        energy.hessian(z, false, K);
+        MatrixXd K = energy.dense_hessian(z);
         const auto V = [&](const VectorXd& t) -> VectorXd {
           return VectorXd::Constant(1, V_of(z + t[0] * d));
         };
@@ -213,7 +212,7 @@ int main(int argc, char** argv) {
         const VectorXd at = VectorXd::Zero(1);
         solid = {{"dV/dp from V", Check(V, at, MatrixXd::Constant(1, 1, g.dot(d)))},
                  {"K from dV/dp", Check(dV, at, K * d)}};
-        energy.hessian(stacked(p0), false, K);
+        K = energy.dense_hessian(stacked(p0));
         out << "dV/dp: " << text(solid[0].second) << "\nK:     " << text(solid[1].second)
             << "\nat rest K resists " << 24 - kernel(K, 1e-9).cols() << " of 24 motions\n";
       },

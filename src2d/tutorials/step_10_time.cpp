@@ -33,10 +33,9 @@ namespace {
 // [3] (M + dt^2 K) dv = dt (f - grad V - dt K v) on the unknowns that are not pinned.
 void linearly_implicit_step(const System& system, double dt, State& state) {
   VectorXd dV(system.size());
-  MatrixXd K(system.size(), system.size());
-  system.potential->gradient(state.z, dV);       // eq. 19
-  system.potential->hessian(state.z, false, K);  // its derivative
-  const MatrixXd A = system.mass + dt * dt * K;
+  system.potential->gradient(state.z, dV);                            // eq. 19
+  const MatrixXd K = system.potential->dense_hessian(state.z);        // its derivative
+  const MatrixXd A = system.mass.dense() + dt * dt * K;
   const VectorXd b = dt * (system.load - dV - dt * K * state.v);
   state.v(system.free) += solve(A(system.free, system.free), b(system.free));
   state.z += dt * state.v;
@@ -51,7 +50,6 @@ std::vector<double> newton_step(const System& system, double dt, double theta, S
   const auto& free = system.free;
   const VectorXd z0 = state.z, v0 = state.v;
   VectorXd v1 = (1 - 1 / theta) * v0, dV(system.size());
-  MatrixXd K(system.size(), system.size());
   const auto z = [&](double s) -> VectorXd { return z0 + s * dt * (v0 + theta * (v1 - v0)); };
   std::vector<double> residuals;
   while (residuals.size() < 20) {
@@ -59,8 +57,8 @@ std::vector<double> newton_step(const System& system, double dt, double theta, S
     const VectorXd r = (system.mass * (v1 - v0) + dt * (dV - system.load))(free);
     residuals.push_back(r.norm() / dt);
     if (residuals.back() < 1e-9 * residuals.front()) break;
-    system.potential->hessian(z(theta), false, K);
-    const MatrixXd A = system.mass + theta * theta * dt * dt * K;  // dr/dv1
+    const MatrixXd K = system.potential->dense_hessian(z(theta));
+    const MatrixXd A = system.mass.dense() + theta * theta * dt * dt * K;  // dr/dv1
     VectorXd step = solve(A(free, free), r);
     v1(free) -= step;
     for (int cut = 0; cut < 30 && !std::isfinite(system.potential->energy(z(theta))); ++cut)

@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
   lesson.step(
       "Motions without energy: the kernel of K",
       [&](std::ostream& out) {
-        make_energy(d, linear, MatrixXd::Zero(n, n))->hessian(rest, false, K);
+        K = make_energy(d, linear, MatrixXd::Zero(n, n))->dense_hessian(rest);
         const MatrixXd M2 = expand(M, 2), zero = kernel(K), soft = kernel(K, 1e-6);
         const auto massless = kernel(zero.transpose() * M2 * zero, 1e-9).cols();
         out << 2 * n << " motions, without energy " << zero.cols() << ": 3 rigid ones, " << massless

@@ -24,8 +24,9 @@ double identity_error(const Model<Dim>& model, double size) {
   const auto& d = model.discretization;
   const Points<Dim> x = evaluate(d.interior, model.system.rest);
   double error = (x - d.quadrature.position).cwiseAbs().maxCoeff() / size;
+  const Points<Dim> y = coefficients(d.interior, model.system.rest);
   for (const auto& block : d.interior.blocks) {
-    const Points<Dim> nodes = d.unknowns.rest(Eigen::all, block.columns);
+    const Points<Dim> nodes = y(Eigen::all, block.columns);
     for (int a = 0; a < Dim; ++a) {
       const Points<Dim> column = nodes * block.gradient[a].transpose();
       error = std::max(error, (column.colwise() - Vec<Dim>::Unit(a)).cwiseAbs().maxCoeff());
@@ -39,10 +40,9 @@ double identity_error(const Model<Dim>& model, double size) {
 template <int Dim>
 double stored_energy(const Model<Dim>& model, const VectorXd& z) {
   const VectorXd u = z - model.system.rest;
-  const Eigen::Map<const Points<Dim>> nodes(u.data(), Dim, u.size() / Dim);
   const double elastic = model.energy->energy(z) - model.energy->stability_energy(z);
   if (model.discretization.unknowns.S.size() > 0) return elastic;  // condensed: no such term
-  return elastic + model.stability_stiffness / 2 * (nodes * model.stability).cwiseProduct(nodes).sum();
+  return elastic + model.stability_stiffness / 2 * u.dot(model.stability * u);
 }
 
 double volume_bound(const InteriorOptions& options, const Bounds& bounds) {

@@ -36,9 +36,9 @@ class Faulty : public Potential {
     if (fault_ == Fault::gradient_reversed) g = -g;
     if (fault_ == Fault::gradient_nan) g[1] = std::nan("");
   }
-  void hessian(const VectorXd&, bool, MatrixXd& H) override {
-    H.setIdentity();
-    if (fault_ == Fault::hessian_nan) H(0, 1) = H(1, 0) = std::nan("");
+  void hessian(const VectorXd&, bool, SymmetricMatrix& H) override {
+    H.set(MatrixXd::Identity(2, 2));
+    if (fault_ == Fault::hessian_nan) H(1, 0) = std::nan("");
   }
 
  private:

@@ -117,7 +117,7 @@ TEST_CASE_TEMPLATE("the blocks of a map are its rows: dense evaluation agrees", 
   for (int k = 0; k < map.n_points; ++k)
     for (int e = d.weights.begin[k]; e < d.weights.begin[k + 1]; ++e) {
       const int i = d.weights.part[e];
-      const PartFit& fit = d.projection.parts[i];
+      const PartFit fit = fit_on_controls(d.projection, i);
       const Vec<Dim> x = (d.quadrature.position.col(k) - d.origins.position.col(d.origins.of_part[i])) / fit.scale;
       for (size_t c = 0; c < fit.columns.size(); ++c) {
         double sum = fit.translation[c];

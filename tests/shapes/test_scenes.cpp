@@ -58,7 +58,7 @@ TEST_CASE("built-in scenes: each makes a model that covers its inside") {
     CHECK(d.loops.n_gaps == (builtin.name == "gap_blob" ? 1 : 0));
     CHECK(model->n_unknowns() > 0);
     CHECK(model->system.load.allFinite());
-    CHECK(model->mass.allFinite());
+    CHECK(model->system.mass.all_finite());
   }
 }
 

@@ -43,8 +43,8 @@ class Springs : public sem::Potential {
       g.template segment<Dim>(Dim * s.a) -= force;
     }
   }
-  void hessian(const Eigen::VectorXd& z, bool project_psd, Eigen::MatrixXd& H) override {
-    H.setZero();
+  void hessian(const Eigen::VectorXd& z, bool project_psd, sem::SymmetricMatrix& matrix) override {
+    H.setZero(size(), size());
     for (const Spring& s : springs) {
       const auto d = edge(z, s);
       double across = 1 - s.length / d.norm();
@@ -57,7 +57,10 @@ class Springs : public sem::Potential {
       H.template block<Dim, Dim>(Dim * s.a, Dim * s.b) -= k;
       H.template block<Dim, Dim>(Dim * s.b, Dim * s.a) -= k;
     }
+    matrix.set(H);
   }
+
+  Eigen::MatrixXd H;  // kept: the solvers' steps are to allocate nothing
 
  private:
   static Eigen::Matrix<double, Dim, 1> edge(const Eigen::VectorXd& z, const Spring& s) {
@@ -76,7 +79,7 @@ class Quadratic : public sem::Potential {
     return 0.5 * (z - z0).dot(K * (z - z0)) + g.dot(z - z0);
   }
   void gradient(const Eigen::VectorXd& z, Eigen::VectorXd& out) override { out = K * (z - z0) + g; }
-  void hessian(const Eigen::VectorXd&, bool, Eigen::MatrixXd& H) override { H = K; }
+  void hessian(const Eigen::VectorXd&, bool, sem::SymmetricMatrix& H) override { H.set(K); }
 };
 
 /// One unknown, given V, V', V''.
@@ -87,7 +90,7 @@ class Scalar : public sem::Potential {
   bool quadratic() const override { return false; }
   double energy(const Eigen::VectorXd& z) override { return V(z(0)); }
   void gradient(const Eigen::VectorXd& z, Eigen::VectorXd& g) override { g(0) = dV(z(0)); }
-  void hessian(const Eigen::VectorXd& z, bool project_psd, Eigen::MatrixXd& H) override {
+  void hessian(const Eigen::VectorXd& z, bool project_psd, sem::SymmetricMatrix& H) override {
     H(0, 0) = project_psd ? std::max(ddV(z(0)), 0.) : ddV(z(0));
   }
 };
@@ -112,6 +115,7 @@ Springs<Dim> random_cluster(int n_particles, Eigen::VectorXd& rest, unsigned see
   std::uniform_real_distribution<double> uniform(0, 1);
   Springs<Dim> springs;
   springs.n_particles = n_particles;
+  springs.H.resize(Dim * n_particles, Dim * n_particles);
   rest.resize(Dim * n_particles);
   for (double& x : rest) x = uniform(random);
   for (int a = 0; a < n_particles; ++a)

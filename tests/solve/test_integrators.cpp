@@ -377,7 +377,7 @@ TEST_CASE("neither mass nor stiffness is singular, in every integrator") {
   springs.n_particles = 2;
   springs.springs = {{0, 1, 1, 1}};
   System loose = make_system(springs, Eigen::Vector4d(0, 0, 1, 0));
-  loose.mass.setZero();
+  loose.mass.set_zero();
   loose.load(2) = 1;
   for (const Integrator integrator : integrators) {
     State state = at_rest(system), loose_state = at_rest(loose);

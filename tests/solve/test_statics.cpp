@@ -5,6 +5,7 @@
 #include <string>
 
 #include "linear_algebra.h"
+#include "sem/solve/cholesky.h"
 #include "sem/solve/modes.h"
 #include "sem/solve/statics.h"
 #include "springs.h"
@@ -56,9 +57,9 @@ class LogBars : public Potential {
     g(1) = 9 * (b - 1 / b);
     g(0) = a - 1 / a - g(1);
   }
-  void hessian(const VectorXd& z, bool, MatrixXd& H) override {
+  void hessian(const VectorXd& z, bool, SymmetricMatrix& H) override {
     const double a = z(0), b = z(1) - z(0), kb = 9 * (1 + 1 / (b * b));
-    H << 1 + 1 / (a * a) + kb, -kb, -kb, kb;
+    H.set(MatrixXd{{1 + 1 / (a * a) + kb, -kb}, {-kb, kb}});
   }
 };
 
@@ -154,8 +155,7 @@ TEST_CASE("a truss pushed past its limit load snaps through to a stable equilibr
   CHECK(report.load_factor == 1);
   CHECK(state.z(5) < -0.4);
   CHECK(report.counters.n_psd_projections > 0);
-  MatrixXd H(6, 6);
-  truss.springs.hessian(state.z, false, H);
+  const MatrixXd H = truss.springs.dense_hessian(state.z);
   CHECK(smallest_eigenvalue(H.bottomRightCorner(2, 2)) > 0);
   const VectorXd force = reaction(truss.system, state.z);
   CHECK(force(1) + force(3) == doctest::Approx(8).epsilon(1e-9));

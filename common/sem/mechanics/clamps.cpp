@@ -1,5 +1,6 @@
 #include "sem/mechanics/clamps.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -39,7 +40,7 @@ void visit_points(const ClampedPoints<Dim>& points, const VectorXd& z, const dou
                                                            nodes.col(points.pin_column[s])),
                            points.normal.col(s),
                            points.held.col(s),
-                           deformation_gradient(block, int(row), z),
+                           deformation_gradient<Dim>(block, int(row), nodes),
                            points.weight[s],
                            points.penalty[s],
                            points.material[s],
@@ -75,6 +76,15 @@ StressDerivative<Dim> third_derivative(const HeldPoint<Dim>& p) {
   return size / (2 * step) *
          (stress_derivative<Dim>(p.material, p.F + D, p.pressure) -
           stress_derivative<Dim>(p.material, p.F - D, p.pressure));
+}
+
+// The unknowns that a spring acts on, ascending.
+template <int Dim>
+std::vector<int> coupled_columns(const HeldControl<Dim>& spring) {
+  std::vector<int> columns;
+  for (int c = 0; c < spring.output.size(); ++c)
+    if (spring.output[c] != 0 || c == spring.pin_column) columns.push_back(c);
+  return columns;
 }
 
 }  // namespace
@@ -131,7 +141,8 @@ void Clamps<Dim>::add_gradient(const VectorXd& z, VectorXd& g, const double* pre
 }
 
 template <int Dim>
-void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, MatrixXd& H, const double* pressure) const {
+void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, SymmetricMatrix& H, const double* pressure) const {
+  MatrixXd sum;
   visit_points<Dim>(points_, z, pressure, [&](const HeldPoint<Dim>& p) {
     const auto& block = p.block;
     const int n = int(block.columns.size());
@@ -154,6 +165,7 @@ void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, MatrixXd& H, 
               T[j](a, c) += p.held[a] * p.normal[b] * C(a + Dim * b, c + Dim * d) *
                             block.gradient[d](p.row, j);
     }
+    sum.resize(Dim * (n + 1), Dim * (n + 1));
     for (int j = 0; j <= n; ++j)
       for (int m = 0; m <= n; ++m) {
         Mat<Dim> local = value[m] * value[j] * K - value[m] * T[j] - value[j] * T[m].transpose();
@@ -162,17 +174,36 @@ void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, MatrixXd& H, 
             for (int d = 0; d < Dim; ++d)
               local -= block.gradient[b](p.row, m) * block.gradient[d](p.row, j) *
                        D.template block<Dim, Dim>(Dim * b, Dim * d);
-        H.template block<Dim, Dim>(Dim * column[m], Dim * column[j]) += p.weight * local;
+        sum.template block<Dim, Dim>(Dim * m, Dim * j) = p.weight * local;
       }
+    H.add(column, sum);
   });
   for (const auto& spring : controls_) {
+    const std::vector<int> columns = coupled_columns(spring);
     Eigen::RowVectorXd row = spring.output;
     row[spring.pin_column] -= 1;
+    const int n = int(columns.size());
+    sum.setZero(Dim * n, Dim * n);
     for (int a = 0; a < Dim; ++a)
-      for (int j = 0; j < row.size(); ++j)
-        for (int i = 0; i < row.size(); ++i)
-          H(Dim * i + a, Dim * j + a) += spring.held[a] * spring.stiffness * row[i] * row[j];
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+          sum(Dim * i + a, Dim * j + a) = spring.held[a] * spring.stiffness * row[columns[i]] * row[columns[j]];
+    H.add(columns, sum);
   }
+}
+
+template <int Dim>
+std::vector<std::vector<int>> Clamps<Dim>::couplings() const {
+  std::vector<std::vector<int>> cliques;
+  for (const auto& block : points_.map.blocks)
+    for (const int s : block.points) {
+      cliques.push_back(block.columns);
+      cliques.back().push_back(points_.pin_column[s]);
+    }
+  for (const auto& spring : controls_) cliques.push_back(coupled_columns(spring));
+  std::sort(cliques.begin(), cliques.end());
+  cliques.erase(std::unique(cliques.begin(), cliques.end()), cliques.end());
+  return cliques;
 }
 
 template <int Dim>

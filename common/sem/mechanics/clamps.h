@@ -11,6 +11,7 @@
 
 #include "sem/mechanics/material.h"
 #include "sem/method/discretization.h"
+#include "sem/solve/symmetric_matrix.h"
 
 namespace sem {
 
@@ -56,8 +57,10 @@ class Clamps {
   void add_gradient(const Eigen::VectorXd& z, Eigen::VectorXd& g, const double* pressure = nullptr) const;
   /// The third derivative of Psi, which -P(F) N . r brings, by central differences of its second
   /// along r (x) N: exact to 1e-8 of a term that vanishes with r. `approximate`: without it.
-  void add_hessian(const Eigen::VectorXd& z, bool approximate, Eigen::MatrixXd& H,
+  void add_hessian(const Eigen::VectorXd& z, bool approximate, SymmetricMatrix& H,
                    const double* pressure = nullptr) const;
+  /// Unknowns that meet in it, for plan_elimination.
+  std::vector<std::vector<int>> couplings() const;
 
   /// d V_D / d p at the held points, -da (dg/dF N) . r: what the clamps add to the volume's change that a
   /// pressure works on.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sem/solve/dense_kernels.h"
+
 namespace sem {
 
 using Eigen::MatrixXd;
@@ -23,37 +25,44 @@ Mat<Dim> assemble_F(const std::array<Points<Dim>, Dim>& columns, int k) {
 
 template <int Dim>
 InternalEnergy<Dim>::InternalEnergy(const Map<Dim>& map, const VectorXd& weight,
-                                    const MaterialField& materials, const MatrixXd& stability,
-                                    Clamps<Dim> clamps, Pressure<Dim> pressure)
+                                    const MaterialField& materials, const SymmetricMatrix& stability,
+                                    Clamps<Dim> clamps, Pressure<Dim> pressure,
+                                    std::shared_ptr<const Elimination> plan)
     : map_(map),
       weight_(weight),
       materials_(materials),
       stability_(stability),
+      assembly_(map, plan ? plan : stability.plan() ? stability.plan() : dense_elimination(map.n_columns), Dim),
       clamps_(std::move(clamps)),
       pressure_(std::move(pressure)),
       work_(map.blocks.size()),
-      stability_nodes_(Dim, map.n_columns),
-      stability_force_(Dim, map.n_columns) {
+      stability_z_(Dim * map.n_columns),
+      stability_force_(Dim * map.n_columns) {
   quadratic_ = std::all_of(materials_.of_point.begin(), materials_.of_point.end(), [&](int m) {
     return is_quadratic(materials_.materials[m].model);
   });
-  int most_columns = 0;
+  long most_scaled = 0, most_columns = 0;
   for (size_t b = 0; b < work_.size(); ++b) {
-    const int n = int(map.blocks[b].points.size()), a = int(map.blocks[b].columns.size());
-    most_columns = std::max(most_columns, a);
-    work_[b].nodes.resize(Dim, a);
+    const auto& block = map.blocks[b];
+    const int n = int(block.points.size()), n_columns = int(block.columns.size());
+    most_scaled = std::max(most_scaled, long(Dim) * n * n_columns);
+    most_columns = std::max(most_columns, long(n_columns));
+    work_[b].nodes.resize(Dim, n_columns);
     for (auto& F : work_[b].F) F.resize(Dim, n);
-    work_[b].scaled.resize(n, a);
-    work_[b].tangent.resize(n);
+    work_[b].gradient.resize(Dim * n, n_columns);
+    for (int axis = 0; axis < Dim; ++axis)
+      work_[b].gradient.middleRows(axis * n, n) = block.gradient[axis](Eigen::all, assembly_.order(int(b)));
+    for (auto& entry : work_[b].tangent) entry.resize(n);
   }
-  product_.resize(most_columns, most_columns);
+  scaled_.resize(most_scaled);
+  product_.resize(most_columns * most_columns);
+  local_.resize(Dim * Dim * most_columns * most_columns);
 }
 
 template <int Dim>
-void InternalEnergy<Dim>::deformation_gradients(const VectorXd& z, const MapBlock<Dim>& block,
+void InternalEnergy<Dim>::deformation_gradients(const Points<Dim>& y, const MapBlock<Dim>& block,
                                                 Workspace& work) {
-  for (size_t j = 0; j < block.columns.size(); ++j)
-    work.nodes.col(j) = z.template segment<Dim>(Dim * block.columns[j]);
+  for (size_t j = 0; j < block.columns.size(); ++j) work.nodes.col(j) = y.col(block.columns[j]);
   for (int b = 0; b < Dim; ++b) work.F[b].noalias() = work.nodes * block.gradient[b].transpose();
 }
 
@@ -61,9 +70,10 @@ template <int Dim>
 bool InternalEnergy<Dim>::update_pressure(const VectorXd& z) {
   if (pressure_.empty()) return true;
   VectorXd g = VectorXd::Zero(map_.n_points);
+  set_coefficients(map_, z, y_);
   for (size_t i = 0; i < work_.size(); ++i) {
     const auto& block = map_.blocks[i];
-    deformation_gradients(z, block, work_[i]);
+    deformation_gradients(y_, block, work_[i]);
     for (size_t k = 0; k < block.points.size(); ++k) {
       const Mat<Dim> F = assemble_F<Dim>(work_[i].F, int(k));
       if (!std::isfinite(energy_density<Dim>(material(block.points[k]), F))) return false;
@@ -91,9 +101,10 @@ double InternalEnergy<Dim>::elastic_energy(const VectorXd& z) {
 template <int Dim>
 double InternalEnergy<Dim>::mixed_energy(const VectorXd& z) {
   double sum = pressure_.empty() ? 0 : -pressure_.half_work();
+  set_coefficients(map_, z, y_);
   for (size_t i = 0; i < work_.size(); ++i) {
     const auto& block = map_.blocks[i];
-    deformation_gradients(z, block, work_[i]);
+    deformation_gradients(y_, block, work_[i]);
     for (size_t k = 0; k < block.points.size(); ++k)
       sum += weight_[block.points[k]] *
              energy_density<Dim>(material(block.points[k]), assemble_F<Dim>(work_[i].F, int(k)),
@@ -104,17 +115,17 @@ double InternalEnergy<Dim>::mixed_energy(const VectorXd& z) {
 
 // gamma S z. S knows no translation: about the first node, so that a body far from zero loses no digits.
 template <int Dim>
-void InternalEnergy<Dim>::set_stability_force(const Eigen::Map<const Points<Dim>>& nodes) {
-  stability_nodes_ = nodes.colwise() - nodes.col(0);
-  stability_force_.noalias() = stability_nodes_ * stability_;
+void InternalEnergy<Dim>::set_stability_force(const VectorXd& z) {
+  const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, map_.n_columns);
+  Eigen::Map<Points<Dim>>(stability_z_.data(), Dim, map_.n_columns) = nodes.colwise() - nodes.col(0);
+  stability_.multiply(stability_z_, stability_force_);
 }
 
 template <int Dim>
 double InternalEnergy<Dim>::stability_energy(const VectorXd& z) {
   if (stability_.size() == 0) return 0;
-  const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, map_.n_columns);
-  set_stability_force(nodes);
-  return stability_force_.cwiseProduct(stability_nodes_).sum() / 2;
+  set_stability_force(z);
+  return stability_force_.dot(stability_z_) / 2;
 }
 
 template <int Dim>
@@ -126,18 +137,12 @@ double InternalEnergy<Dim>::energy(const VectorXd& z) {
 template <int Dim>
 void InternalEnergy<Dim>::gradient(const VectorXd& z, VectorXd& g) {
   update_pressure(z);
-  const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, map_.n_columns);
-  Eigen::Map<Points<Dim>> out(g.data(), Dim, map_.n_columns);
-  if (stability_.size() > 0) {
-    set_stability_force(nodes);
-    out = stability_force_;
-  } else {
-    out.setZero();
-  }
+  set_coefficients(map_, z, y_);
+  forces_.setZero(Dim, y_.cols());
   for (size_t i = 0; i < work_.size(); ++i) {
     const auto& block = map_.blocks[i];
     Workspace& work = work_[i];
-    deformation_gradients(z, block, work);
+    deformation_gradients(y_, block, work);
     for (size_t k = 0; k < block.points.size(); ++k) {
       const Mat<Dim> P = weight_[block.points[k]] *
                          first_piola<Dim>(material(block.points[k]), assemble_F<Dim>(work.F, int(k)),
@@ -146,65 +151,84 @@ void InternalEnergy<Dim>::gradient(const VectorXd& z, VectorXd& g) {
     }
     work.nodes.setZero();
     for (int b = 0; b < Dim; ++b) work.nodes.noalias() += work.F[b] * block.gradient[b];
-    for (size_t j = 0; j < block.columns.size(); ++j) out.col(block.columns[j]) += work.nodes.col(j);
+    for (size_t j = 0; j < block.columns.size(); ++j) forces_.col(block.columns[j]) += work.nodes.col(j);
+  }
+  add_shared(map_, forces_);
+  g = Eigen::Map<const VectorXd>(forces_.data(), size());
+  if (stability_.size() > 0) {
+    set_stability_force(z);
+    g += stability_force_;
   }
   if (!clamps_.empty()) clamps_.add_gradient(z, g, clamp_pressure());
 }
 
+// v dP/dF at the block's points, from F in the work space.
 template <int Dim>
-void InternalEnergy<Dim>::hessian(const VectorXd& z, bool psd, MatrixXd& H) {
-  update_pressure(z);
-  H.setZero();
-  for (int j = 0; j < stability_.cols(); ++j)
-    for (int i = 0; i < stability_.rows(); ++i)
-      for (int a = 0; a < Dim; ++a) H(Dim * i + a, Dim * j + a) = stability_(i, j);
-  for (size_t i = 0; i < work_.size(); ++i) {
-    const auto& block = map_.blocks[i];
-    Workspace& work = work_[i];
-    const int n = int(block.points.size()), n_columns = int(block.columns.size());
-    auto product = product_.topLeftCorner(n_columns, n_columns);
-    deformation_gradients(z, block, work);
-    for (int k = 0; k < n; ++k) {
-      const StressDerivative<Dim> C =
-          stress_derivative<Dim>(material(block.points[k]), assemble_F<Dim>(work.F, k), pressure(block.points[k]));
-      work.tangent[k] = weight_[block.points[k]] * (psd ? project_to_psd<Dim>(C) : C);
-    }
-    for (int a = 0; a < Dim; ++a)
-      for (int c = a; c < Dim; ++c) {
-        product.setZero();
-        for (int b = 0; b < Dim; ++b) {
-          for (int j = 0; j < n_columns; ++j)
-            for (int k = 0; k < n; ++k) {
-              double sum = 0;
-              for (int d = 0; d < Dim; ++d)
-                sum += work.tangent[k](a + Dim * b, c + Dim * d) * block.gradient[d](k, j);
-              work.scaled(k, j) = sum;
-            }
-          product.noalias() += block.gradient[b].transpose() * work.scaled;
-        }
-        for (int j = 0; j < n_columns; ++j)
-          for (int m = 0; m < n_columns; ++m) {
-            const int row = Dim * block.columns[m] + a, column = Dim * block.columns[j] + c;
-            H(row, column) += product(m, j);
-            if (c != a) H(column, row) += product(m, j);
-          }
-      }
+void InternalEnergy<Dim>::set_tangents(const MapBlock<Dim>& block, bool project_psd, Workspace& work) {
+  for (size_t k = 0; k < block.points.size(); ++k) {
+    const int point = block.points[k];
+    const StressDerivative<Dim> C = stress_derivative<Dim>(material(point), assemble_F<Dim>(work.F, int(k)), pressure(point));
+    const StressDerivative<Dim> scaled = weight_[point] * (project_psd ? project_to_psd<Dim>(C) : C);
+    for (int e = 0; e < scaled.size(); ++e) work.tangent[e][k] = scaled.data()[e];
   }
-  if (!clamps_.empty()) clamps_.add_hessian(z, psd, H, clamp_pressure());
+}
+
+// The lower triangle of sum_k v_k B_k^T C_k B_k in the block's columns, components interleaved: for every pair of
+// components a >= c the product of G^T and the scaled G.
+template <int Dim>
+Eigen::Map<const MatrixXd> InternalEnergy<Dim>::local_hessian(const Workspace& work) {
+  const int n = int(work.tangent[0].size()), N = int(work.gradient.cols()), k = Dim * n;
+  Eigen::Map<MatrixXd> scaled(scaled_.data(), k, N), product(product_.data(), N, N), local(local_.data(), Dim * N, Dim * N);
+  for (int c = 0; c < Dim; ++c)
+    for (int a = c; a < Dim; ++a) {
+      for (int j = 0; j < N; ++j)
+        for (int b = 0; b < Dim; ++b) {
+          auto entry = scaled.col(j).segment(b * n, n).array();
+          const auto C = [&](int d) -> const Eigen::ArrayXd& { return work.tangent[a + Dim * b + Dim * Dim * (c + Dim * d)]; };
+          const auto G = [&](int d) { return work.gradient.col(j).segment(d * n, n).array(); };
+          entry = C(0) * G(0);
+          for (int d = 1; d < Dim; ++d) entry += C(d) * G(d);
+        }
+      product.setZero();
+      dense_kernels().add_product(product_.data(), N, work.gradient.data(), k, scaled_.data(), k, N, N, k);
+      for (int j = 0; j < N; ++j)
+        for (int m = j; m < N; ++m) {
+          local(Dim * m + a, Dim * j + c) = product(m, j);
+          if (a != c) local(Dim * m + c, Dim * j + a) = product(j, m);
+        }
+    }
+  return {local_.data(), Dim * N, Dim * N};
+}
+
+template <int Dim>
+void InternalEnergy<Dim>::hessian(const VectorXd& z, bool project_psd, SymmetricMatrix& H) {
+  update_pressure(z);
+  H.set_zero();
+  if (stability_.size() > 0) H.add(1, stability_);
+  set_coefficients(map_, z, y_);
+  for (size_t i = 0; i < work_.size(); ++i) {
+    deformation_gradients(y_, map_.blocks[i], work_[i]);
+    set_tangents(map_.blocks[i], project_psd, work_[i]);
+    assembly_.add(int(i), local_hessian(work_[i]), H);
+  }
+  assembly_.finish(H);
+  if (!clamps_.empty()) clamps_.add_hessian(z, project_psd, H, clamp_pressure());
   if (!pressure_.empty()) add_pressure_hessian(z, H);
 }
 
 // H += G^T M^-1 G with G = db/dz.
 template <int Dim>
-void InternalEnergy<Dim>::add_pressure_hessian(const VectorXd& z, MatrixXd& H) {
+void InternalEnergy<Dim>::add_pressure_hessian(const VectorXd& z, SymmetricMatrix& H) {
   const auto& q = pressure_.functions();
-  MatrixXd G = MatrixXd::Zero(q.interior.n_columns, size());
+  MatrixXd G = MatrixXd::Zero(q.interior.n_columns, size()), scaled;
+  set_coefficients(map_, z, y_);
   for (size_t i = 0; i < work_.size(); ++i) {
     const auto& block = map_.blocks[i];
     const auto& values = q.interior.blocks[i];
     Workspace& work = work_[i];
-    deformation_gradients(z, block, work);
+    deformation_gradients(y_, block, work);
     const int n = int(block.points.size());
+    scaled.resize(n, block.columns.size());
     std::array<Points<Dim>, Dim> first;  // v dg/dF_ab: column a of row b
     for (auto& rows : first) rows = Points<Dim>::Zero(Dim, n);
     for (int k = 0; k < n; ++k) {
@@ -218,9 +242,9 @@ void InternalEnergy<Dim>::add_pressure_hessian(const VectorXd& z, MatrixXd& H) {
         for (int k = 0; k < n; ++k) {
           double sum = 0;
           for (int b = 0; b < Dim; ++b) sum += first[b](a, k) * block.gradient[b](k, j);
-          work.scaled(k, j) = sum;
+          scaled(k, j) = sum;
         }
-      local.noalias() = values.value.transpose() * work.scaled;
+      local.noalias() = values.value.transpose() * scaled;
       for (size_t j = 0; j < block.columns.size(); ++j)
         for (size_t m = 0; m < values.columns.size(); ++m)
           G(values.columns[m], Dim * block.columns[j] + a) += local(m, j);

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "sem/mechanics/assembly.h"
 #include "sem/mechanics/pressure.h"
 #include "sem/method/map.h"
 #include "sem/solve/system.h"
@@ -19,23 +20,27 @@ struct MaterialField {
 
 /// Implements the solvers' Potential. All workspaces are allocated once.
 ///
-/// The Hessian uses that every component of z has the same scalar basis: with
+/// The Hessian uses that every component of y has the same scalar basis: with
 /// C = dP/dF the block of components (a, c) is
 ///   sum_{b,d} G_b^T diag(v C_{ab,cd}) G_d,   G_b = gradient[b] of a map block,
-/// Dim (Dim+1)/2 times Dim matrix products of #columns by #points by #columns.
+/// a matrix product of #columns by Dim #points by #columns for each of the Dim (Dim+1)/2 pairs. What it has on
+/// shared rows is carried over to z at the end (assembly.h).
 template <int Dim>
 class InternalEnergy : public Potential {
  public:
   /// map: B at the quadrature points (kept by reference); weight: v_k;
   /// stability: gamma S, scalar, n_columns by n_columns, Pa (2D) or Pa m; empty: none. clamps: V_D, added to V.
-  /// pressure: of the materials that have one of their own (pressure.h); empty: none.
+  /// pressure: of the materials that have one of their own (pressure.h); empty: none. plan: of the Hessian, with
+  /// the couplings of the map, of the clamps and, if there is a pressure, of everything; that of a stability; null: dense.
   InternalEnergy(const Map<Dim>& map, const Eigen::VectorXd& weight, const MaterialField& materials,
-                 const Eigen::MatrixXd& stability, Clamps<Dim> clamps = {}, Pressure<Dim> pressure = {});
+                 const SymmetricMatrix& stability, Clamps<Dim> clamps = {}, Pressure<Dim> pressure = {},
+                 std::shared_ptr<const Elimination> plan = nullptr);
 
   int size() const override { return Dim * map_.n_columns; }
   double energy(const Eigen::VectorXd& z) override;
   void gradient(const Eigen::VectorXd& z, Eigen::VectorXd& g) override;
-  void hessian(const Eigen::VectorXd& z, bool project_psd, Eigen::MatrixXd& H) override;
+  void hessian(const Eigen::VectorXd& z, bool project_psd, SymmetricMatrix& H) override;
+  SymmetricMatrix new_hessian() const override { return {assembly_.plan(), Dim}; }
   /// True if every material in use is linear.
   bool quadratic() const override { return quadratic_; }
 
@@ -49,18 +54,20 @@ class InternalEnergy : public Potential {
  private:
   // Work space of one map block, sized once.
   struct Workspace {
-    Points<Dim> nodes;                   // z of the block's columns, Dim by #columns
+    Points<Dim> nodes;                   // y of the block's columns, Dim by #columns
     std::array<Points<Dim>, Dim> F;      // column axis of F at each point, Dim by #points each
-    Eigen::MatrixXd scaled;              // #points by #columns
-    std::vector<StressDerivative<Dim>> tangent;  // v_k dP/dF at each point
+    Eigen::MatrixXd gradient;            // the block's, axis below axis, columns in the order of the assembly
+    std::array<Eigen::ArrayXd, Dim * Dim * Dim * Dim> tangent;  // v dP/dF at all points, entry by entry
   };
 
-  void set_stability_force(const Eigen::Map<const Points<Dim>>& nodes);
-  void deformation_gradients(const Eigen::VectorXd& z, const MapBlock<Dim>& block, Workspace& work);
+  void set_stability_force(const Eigen::VectorXd& z);
+  void deformation_gradients(const Points<Dim>& y, const MapBlock<Dim>& block, Workspace& work);
+  void set_tangents(const MapBlock<Dim>& block, bool project_psd, Workspace& work);
+  Eigen::Map<const Eigen::MatrixXd> local_hessian(const Workspace& work);
   // Solves for the pressure at z; false where g is not defined (J <= 0).
   bool update_pressure(const Eigen::VectorXd& z);
   double mixed_energy(const Eigen::VectorXd& z);  // at that pressure
-  void add_pressure_hessian(const Eigen::VectorXd& z, Eigen::MatrixXd& H);
+  void add_pressure_hessian(const Eigen::VectorXd& z, SymmetricMatrix& H);
   const double* pressure(int point) const { return pressure_.empty() ? nullptr : pressure_.at(point); }
   const double* clamp_pressure() const { return pressure_.empty() ? nullptr : pressure_.on_clamps(); }
   const Material& material(int point) const { return materials_.materials[materials_.of_point[point]]; }
@@ -68,13 +75,15 @@ class InternalEnergy : public Potential {
   const Map<Dim>& map_;
   Eigen::VectorXd weight_;
   MaterialField materials_;
-  Eigen::MatrixXd stability_;
+  SymmetricMatrix stability_;
+  Assembly<Dim> assembly_;
   Clamps<Dim> clamps_;
   Pressure<Dim> pressure_;
   bool quadratic_;
   std::vector<Workspace> work_;
-  Eigen::MatrixXd product_;  // of a block's columns, #columns by #columns: room for the largest block
-  Points<Dim> stability_nodes_, stability_force_;  // Dim by n_columns
+  Points<Dim> y_, forces_;                    // coefficients of the map, and forces on them
+  Eigen::VectorXd scaled_, product_, local_;  // of a block: room for the largest
+  Eigen::VectorXd stability_z_, stability_force_;
 };
 
 }  // namespace sem

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace sem {
@@ -55,9 +56,11 @@ void Pressure<Dim>::solve(const VectorXd& g, const VectorXd& clamp_work) {
 }
 
 template <int Dim>
-void Pressure<Dim>::add_to_hessian(MatrixXd& G, MatrixXd& H) const {
+void Pressure<Dim>::add_to_hessian(MatrixXd& G, SymmetricMatrix& H) const {
   factor_.solve_factor_in_place(G);
-  H.noalias() += G.transpose() * G;
+  std::vector<int> nodes(G.cols() / Dim);
+  std::iota(nodes.begin(), nodes.end(), 0);
+  H.add(nodes, G.transpose() * G);
 }
 
 template class Pressure<2>;

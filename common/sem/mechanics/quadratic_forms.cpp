@@ -1,55 +1,87 @@
 #include "sem/mechanics/quadratic_forms.h"
 
+#include <algorithm>
+#include <set>
+
 #include "sem/method/least_squares.h"
 
 namespace sem {
 
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
 template <int Dim>
-Eigen::MatrixXd mass_matrix(const Map<Dim>& interior, const Eigen::VectorXd& point_mass) {
-  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(interior.n_columns, interior.n_columns);
-  for (const auto& block : interior.blocks) {
-    const Eigen::VectorXd mass = point_mass(block.points);
-    M(block.columns, block.columns) += gram_matrix(block.value, mass);
+SymmetricMatrix mass_matrix(const Map<Dim>& interior, const VectorXd& point_mass,
+                            const std::shared_ptr<const Elimination>& plan) {
+  SymmetricMatrix M(plan, 1);
+  Assembly<Dim> assembly(interior, plan, 1);
+  for (size_t b = 0; b < interior.blocks.size(); ++b) {
+    const auto& block = interior.blocks[b];
+    const MatrixXd value = block.value(Eigen::all, assembly.order(int(b)));
+    const VectorXd mass = point_mass(block.points);
+    assembly.add(int(b), gram_matrix(value, mass), M);
   }
+  assembly.finish(M);
   return M;
 }
 
 template <int Dim>
-Eigen::MatrixXd stability_matrix(const Map<Dim>& on_boundary, const Samples<Dim>& samples,
-                                 const Unknowns<Dim>& unknowns) {
-  if (unknowns.S.size() > 0) {
-    const Eigen::MatrixXd D = dense_value(on_boundary) -
-                              sample_jacobian(samples, unknowns.n_controls()) * unknowns.S;
-    return gram_matrix(D, samples.weight);
-  }
-  // S = I: a sample depends on the control points of its own part, which are among the block's columns.
-  Eigen::MatrixXd form = Eigen::MatrixXd::Zero(on_boundary.n_columns, on_boundary.n_columns);
-  std::vector<int> local(on_boundary.n_columns);
-  for (const auto& block : on_boundary.blocks) {
-    for (size_t c = 0; c < block.columns.size(); ++c) local[block.columns[c]] = int(c);
-    Eigen::MatrixXd D = block.value;
-    for (size_t k = 0; k < block.points.size(); ++k) {
-      const int s = block.points[k];
-      for (int e = samples.row[s]; e < samples.row[s + 1]; ++e)
-        D(k, local[samples.column[e]]) -= samples.value[e];
-    }
-    const Eigen::VectorXd weight = samples.weight(block.points);
-    form(block.columns, block.columns) += gram_matrix(D, weight);
-  }
-  return form;
+MatrixXd mass_matrix(const Map<Dim>& interior, const VectorXd& point_mass) {
+  return mass_matrix(interior, point_mass, dense_elimination(interior.n_columns)).dense();
 }
 
-Eigen::MatrixXd expand(const Eigen::MatrixXd& scalar, int dim) {
-  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(dim * scalar.rows(), dim * scalar.cols());
+template <int Dim>
+Map<Dim> mismatch_map(const Map<Dim>& on_boundary, const Samples<Dim>& samples, const Unknowns<Dim>& unknowns) {
+  Map<Dim> mismatch = on_boundary;
+  if (unknowns.S.size() > 0) {
+    MapBlock<Dim> all;
+    for (int s = 0; s < samples.size(); ++s) all.points.push_back(s);
+    for (int c = 0; c < on_boundary.n_columns; ++c) all.columns.push_back(c);
+    all.value = dense_value(on_boundary) - sample_jacobian(samples, unknowns.n_controls()) * unknowns.S;
+    mismatch.shared.clear();
+    mismatch.blocks = {all};
+    return mismatch;
+  }
+  // S = I: a sample also depends on the control points of its own part.
+  for (auto& block : mismatch.blocks) {
+    std::set<int> columns(block.columns.begin(), block.columns.end());
+    for (const int s : block.points)
+      columns.insert(samples.column.begin() + samples.row[s], samples.column.begin() + samples.row[s + 1]);
+    const std::vector<int> all(columns.begin(), columns.end());
+    const auto at = [&](int column) { return std::lower_bound(all.begin(), all.end(), column) - all.begin(); };
+    MatrixXd D = MatrixXd::Zero(block.points.size(), all.size());
+    for (size_t c = 0; c < block.columns.size(); ++c) D.col(at(block.columns[c])) = block.value.col(c);
+    for (size_t k = 0; k < block.points.size(); ++k) {
+      const int s = block.points[k];
+      for (int e = samples.row[s]; e < samples.row[s + 1]; ++e) D(k, at(samples.column[e])) -= samples.value[e];
+    }
+    block.columns = all;
+    block.value = std::move(D);
+  }
+  return mismatch;
+}
+
+template <int Dim>
+MatrixXd stability_matrix(const Map<Dim>& on_boundary, const Samples<Dim>& samples, const Unknowns<Dim>& unknowns) {
+  return mass_matrix(mismatch_map(on_boundary, samples, unknowns), samples.weight);
+}
+
+MatrixXd expand(const MatrixXd& scalar, int dim) {
+  MatrixXd full = MatrixXd::Zero(dim * scalar.rows(), dim * scalar.cols());
   for (int j = 0; j < scalar.cols(); ++j)
     for (int i = 0; i < scalar.rows(); ++i)
       for (int a = 0; a < dim; ++a) full(dim * i + a, dim * j + a) = scalar(i, j);
   return full;
 }
 
-template Eigen::MatrixXd mass_matrix<2>(const Map<2>&, const Eigen::VectorXd&);
-template Eigen::MatrixXd mass_matrix<3>(const Map<3>&, const Eigen::VectorXd&);
-template Eigen::MatrixXd stability_matrix<2>(const Map<2>&, const Samples<2>&, const Unknowns<2>&);
-template Eigen::MatrixXd stability_matrix<3>(const Map<3>&, const Samples<3>&, const Unknowns<3>&);
+#define SEM_INSTANTIATE(Dim)                                                                                \
+  template SymmetricMatrix mass_matrix<Dim>(const Map<Dim>&, const VectorXd&,                               \
+                                            const std::shared_ptr<const Elimination>&);                     \
+  template MatrixXd mass_matrix<Dim>(const Map<Dim>&, const VectorXd&);                                     \
+  template Map<Dim> mismatch_map<Dim>(const Map<Dim>&, const Samples<Dim>&, const Unknowns<Dim>&);          \
+  template MatrixXd stability_matrix<Dim>(const Map<Dim>&, const Samples<Dim>&, const Unknowns<Dim>&);
+SEM_INSTANTIATE(2)
+SEM_INSTANTIATE(3)
+#undef SEM_INSTANTIATE
 
 }  // namespace sem

@@ -10,26 +10,41 @@ namespace sem {
 
 /// Points that depend on the same unknowns. Every component of x uses the
 /// same scalar basis, so a row of Gamma or B is stored once:
-///   x_a(X_k) = sum_j value(k, j) z_{columns[j], a}
-///   F_ab(X_k) = sum_j gradient[b](k, j) z_{columns[j], a}
+///   x_a(X_k) = sum_j value(k, j) y_{columns[j], a}
+///   F_ab(X_k) = sum_j gradient[b](k, j) y_{columns[j], a}
+/// y are the unknowns z, followed by what parts share of them (Map::shared).
 template <int Dim>
 struct MapBlock {
   std::vector<int> points;                    ///< indices into the point set
-  std::vector<int> columns;                   ///< active unknowns (scalar, 0..n-1), ascending
+  std::vector<int> columns;                   ///< of y, ascending
   Eigen::MatrixXd value;                      ///< #points by #columns
   std::array<Eigen::MatrixXd, Dim> gradient;  ///< each #points by #columns; empty if not asked for
 };
 
 /// Gamma and B at a set of points; the unknown vector z has n_columns vectors
-/// of Dim, stacked: z = (z_0x, z_0y, z_1x, ...).
+/// of Dim, stacked: z = (z_0x, z_0y, z_1x, ...). In the paper's formulation a point depends on the control
+/// points of every part that shares an origin with a part near it, but only through a few sums T z of them:
+/// the blocks act on y = (z, T z).
 template <int Dim>
 struct Map {
   int n_points = 0, n_columns = 0;
   std::vector<MapBlock<Dim>> blocks;
+  std::vector<SharedRows> shared;  ///< T: entries of y from n_columns on, in order
 
-  /// Share of stored entries among n_points * n_columns.
+  int n_shared() const;
+  /// Share of the entries of Gamma on z that are not zero by structure.
   double fill() const;
 };
+
+/// y = (z, T z), Dim by n_columns + n_shared. The second form does not allocate if y has that size.
+template <int Dim>
+Points<Dim> coefficients(const Map<Dim>& map, const Eigen::VectorXd& z);
+template <int Dim>
+void set_coefficients(const Map<Dim>& map, const Eigen::VectorXd& z, Points<Dim>& y);
+
+/// The unknowns that a block's points depend on, shared rows written out; ascending.
+template <int Dim>
+std::vector<int> unknowns_of(const Map<Dim>& map, const MapBlock<Dim>& block);
 
 /// The blended map of the control points, draft eq. 2-6 with a translation per
 /// origin: x(X) = sum_i w_i [m(X - Xbar_i) c_i + t_i]. The gradient is the
@@ -47,7 +62,7 @@ struct PruneReport {
 };
 
 /// Draft eq. 14: keeps the n_keep columns of each point that are largest in
-/// the infinity norm of dF/dq (ties: the lower index). Renormalised: the kept
+/// the infinity norm of dF/dq (ties: the lower index); shared rows are written out. Renormalised: the kept
 /// values again sum to 1 and the gradients to 0, by an equal share for each, so
 /// that translations stay exact; without it they do not.
 template <int Dim>
@@ -67,8 +82,13 @@ Points<Dim> evaluate(const Map<Dim>& map, const Eigen::VectorXd& z);
 template <int Dim>
 Points<Dim> evaluate_transposed(const Map<Dim>& map, const Points<Dim>& values);
 
-/// F for unknowns z at the block's point of this row.
+/// The transpose of `coefficients`, in place: adds the last n_shared columns of `sum`, carried over by T, to its
+/// first n_columns.
 template <int Dim>
-Mat<Dim> deformation_gradient(const MapBlock<Dim>& block, int row, const Eigen::VectorXd& z);
+void add_shared(const Map<Dim>& map, Points<Dim>& sum);
+
+/// F at the block's point of this row, y = coefficients(map, z).
+template <int Dim>
+Mat<Dim> deformation_gradient(const MapBlock<Dim>& block, int row, const Points<Dim>& y);
 
 }  // namespace sem

@@ -21,11 +21,20 @@ struct ProjectionOptions {
   double rank_tolerance = 1e-8;  ///< relative pivot below which a direction is not determined
 };
 
-/// The fit of one part. Scalar: every component of p is projected by the same matrix.
+/// Functionals of the unknowns that several parts share: rows * p[columns].
+struct SharedRows {
+  std::vector<int> columns;  ///< ascending
+  Eigen::MatrixXd rows;      ///< #rows by #columns
+};
+
+/// The fit of one part. Scalar: every component of p is projected by the same matrix. It acts on
+/// y = (p[columns], shared rows), the part's own control points and what it shares with others: few numbers,
+/// however many control points those depend on.
 struct PartFit {
-  std::vector<int> columns;      ///< control points that the fit depends on, ascending
-  Eigen::MatrixXd coefficients;  ///< #monomials by #columns: c_i = coefficients * p[columns]
-  Eigen::RowVectorXd translation;  ///< #columns: t_i, the centroid of the origin's set
+  std::vector<int> columns;      ///< control points, ascending
+  std::vector<int> shared = {};  ///< rows among all of Projection::shared
+  Eigen::MatrixXd coefficients;  ///< #monomials by #columns + #shared: c_i = coefficients * y
+  Eigen::RowVectorXd translation;  ///< #columns + #shared: t_i, the centroid of the origin's set
   double scale = 1;              ///< h_i, m: c_i belongs to the monomials of (X - origin) / h_i
   std::vector<int> rank;         ///< determined directions: per degree, or one entry (pseudo-inverse)
   bool borrowed = false;         ///< the linear fit took directions from the origin's set
@@ -37,7 +46,12 @@ template <int Dim>
 struct Projection {
   Monomials<Dim> monomials{1};
   std::vector<PartFit> parts;
+  std::vector<SharedRows> shared;  ///< per origin: its centroid; the linear fit of its set, if a part borrows it
 };
+
+/// The fit of part i on control points alone: its shared rows written out.
+template <int Dim>
+PartFit fit_on_controls(const Projection<Dim>& projection, int i);
 
 /// Fits the polynomial of every part to its samples, in least squares weighted
 /// by the samples' weights.

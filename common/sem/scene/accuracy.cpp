@@ -43,9 +43,11 @@ double test_energy(const Model<Dim>& model, const Quadrature<Dim>& rule) {
   const Points<Dim> vectors = unknowns_for(d.unknowns, p);
   const Eigen::VectorXd z = vectors.reshaped();
   double energy = 0;
-  for (const auto& block : map_at(d, rule.position, true).blocks) {
+  const Map<Dim> map = map_at(d, rule.position, true);
+  const Points<Dim> y = coefficients(map, z);
+  for (const auto& block : map.blocks) {
     for (size_t k = 0; k < block.points.size(); ++k) {
-      const Mat<Dim> F = deformation_gradient(block, int(k), z);
+      const Mat<Dim> F = deformation_gradient(block, int(k), y);
       Material material = model.materials.materials[rule.solid[block.points[k]]];
       material.model = MaterialModel::linear;
       energy += rule.weight[block.points[k]] * energy_density<Dim>(material, F);
@@ -79,9 +81,10 @@ Accuracy<Dim> measure_accuracy(const Model<Dim>& model) {
   a.gap_share = d.rays.capped_length / a.quadrature.volume;
   const Points<Dim> x = evaluate(d.interior, model.system.rest);
   a.identity_error = (x - d.quadrature.position).colwise().norm().maxCoeff() / size;
+  const Points<Dim> y = coefficients(d.interior, model.system.rest);
   for (const auto& block : d.interior.blocks)
     for (size_t k = 0; k < block.points.size(); ++k) {
-      const Mat<Dim> F = deformation_gradient(block, int(k), model.system.rest);
+      const Mat<Dim> F = deformation_gradient(block, int(k), y);
       a.identity_gradient_error =
           std::max(a.identity_gradient_error, (F - Mat<Dim>::Identity()).cwiseAbs().maxCoeff());
     }

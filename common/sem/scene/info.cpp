@@ -12,13 +12,12 @@
 #include "sem/scene/json_text.h"
 #include "sem/scene/read_scene.h"
 #include "sem/scene/summary.h"
-#include "sem/solve/cholesky.h"
+#include "sem/solve/sparse_cholesky.h"
 
 namespace sem {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Eigen::MatrixXd;
 
 double seconds_of(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -47,20 +46,21 @@ void add_tangent(const Scene<Dim>& scene, const Model<Dim>& model, Json& json) {
     json["condition_estimate"] = "not available: the rest shape has infinite energy";
     return;
   }
-  MatrixXd K(system.size(), system.size());
+  SymmetricMatrix K = system.potential->new_hessian();
   const double assembly = seconds_of([&] { system.potential->hessian(system.rest, false, K); });
   double factorization = 0;
-  const auto estimate = [&](const MatrixXd& full) -> Json {
-    const MatrixXd free = full(system.free, system.free);
-    Cholesky cholesky(int(free.rows()));
+  SparseCholesky cholesky(K.plan(), K.components(), system.free);
+  const auto estimate = [&](const SymmetricMatrix& matrix) -> Json {
     bool regular = false;
-    factorization = seconds_of([&] { regular = cholesky.compute(free); });
+    factorization = seconds_of([&] { regular = cholesky.compute(matrix); });
     return regular ? Json(cholesky.condition_estimate()) : Json("singular or indefinite");
   };
   json["condition_estimate"]["stiffness"] = estimate(K);
   if (scene.analysis.kind == AnalysisKind::dynamics) {
     const double dt = scene.analysis.time_step;
-    json["condition_estimate"]["step_matrix"] = estimate(system.mass + dt * dt * K);
+    K *= dt * dt;
+    K.add(1, system.mass);
+    json["condition_estimate"]["step_matrix"] = estimate(K);
   }
   // The eigenvalue problem beside its factorisation of n^3 / 3: reduction 2 n^3, tridiagonalisation 4/3 n^3,
   // QR iteration with vectors 6 n^3.
@@ -95,9 +95,8 @@ double megabytes(const Model<Dim>& model) {
     numbers += double(block.points.size()) * double(block.columns.size()) * (Dim + 1);
   for (const auto& block : d.on_boundary.blocks) numbers += double(block.value.size());
   for (const auto& fit : d.projection.parts) numbers += double(fit.coefficients.size());
-  const double n = model.system.size(), free = model.n_unknowns();
-  numbers += 2 * double(model.mass.size());  // mass, stability
-  numbers += 2 * n * n + 2 * free * free;    // expanded mass, Hessian, system matrix, factor
+  const double entries = double(model.system.mass.plan()->n_entries);
+  numbers += (2 + 3 * Dim * Dim) * entries;  // mass, stability; Hessian, system matrix, factor
   return 8e-6 * numbers;
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 
 #include "sem/base/error.h"
@@ -116,30 +117,64 @@ class Builder {
 
   void make_operators() {
     const auto& d = model_->discretization;
-    model_->stability = stability_matrix(d.on_boundary, d.samples, d.unknowns);
+    System& system = model_->system;
     model_->stability_stiffness =
         scene_.stability_stiffness > 0 ? scene_.stability_stiffness : default_stiffness();
-    model_->mass = mass_matrix(d.interior, model_->point_mass);
-    if (scene_.kinetic_length > 0) {
-      Samples<Dim> dense = d.samples;
-      for (int s = 0; s < dense.size(); ++s) dense.weight[s] *= part_densities_[dense.part[s]];
-      model_->mass += scene_.kinetic_length * stability_matrix(d.on_boundary, dense, d.unknowns);
-    }
+    Clamps<Dim> clamps;
+    Pressure<Dim> pressure;
     if (condensed()) {
-      Clamps<Dim> clamps = make_clamps();
-      Pressure<Dim> pressure = make_pressure(clamps.points());
-      model_->energy = std::make_unique<InternalEnergy<Dim>>(
-          d.interior, d.quadrature.weight, model_->materials, Eigen::MatrixXd(), std::move(clamps),
-          std::move(pressure));
-    } else {
-      model_->energy = std::make_unique<InternalEnergy<Dim>>(
-          d.interior, d.quadrature.weight, model_->materials,
-          model_->stability_stiffness * model_->stability);
+      clamps = make_clamps();
+      pressure = make_pressure(clamps.points());
     }
-    System& system = model_->system;
+    const bool mismatch_counts = !condensed() || scene_.kinetic_length > 0;
+    const Map<Dim> mismatch = mismatch_counts ? mismatch_map(d.on_boundary, d.samples, d.unknowns) : Map<Dim>();
+    const auto plan = plan_of_system(mismatch, clamps, pressure);
+    system.mass = mass_matrix(d.interior, model_->point_mass, plan);
+    if (scene_.kinetic_length > 0) {
+      VectorXd mass = d.samples.weight;
+      for (int s = 0; s < d.samples.size(); ++s) mass[s] *= part_densities_[d.samples.part[s]];
+      system.mass.add(scene_.kinetic_length, mass_matrix(mismatch, mass, plan));
+    }
+    SymmetricMatrix stability;
+    if (!condensed()) {
+      model_->stability = stability = mass_matrix(mismatch, d.samples.weight, plan);
+      stability *= model_->stability_stiffness;
+    }
+    model_->energy = std::make_unique<InternalEnergy<Dim>>(d.interior, d.quadrature.weight, model_->materials, stability,
+                                                           std::move(clamps), std::move(pressure), plan);
     system.potential = model_->energy.get();
-    system.mass = expand(model_->mass, Dim);
     system.rest = affine_field<Dim>(d.unknowns, Mat<Dim>::Identity(), Vec<Dim>::Zero());
+  }
+
+  // The order in which the unknowns are eliminated; those that pins hold in all components never are.
+  std::shared_ptr<const Elimination> plan_of_system(const Map<Dim>& mismatch, const Clamps<Dim>& clamps,
+                                                    const Pressure<Dim>& pressure) const {
+    const auto& d = model_->discretization;
+    const int n = d.unknowns.size();
+    std::vector<std::vector<int>> cliques = couplings(d.interior);
+    for (const auto& more : {couplings(mismatch), clamps.couplings()}) cliques.insert(cliques.end(), more.begin(), more.end());
+    if (!pressure.empty()) {
+      cliques.emplace_back(n);
+      std::iota(cliques.back().begin(), cliques.back().end(), 0);
+    }
+    std::vector<int> n_held(n, 0), held;
+    for (size_t i = 0; i < scene_.pins.size(); ++i)
+      for (const auto& [column, axes] : held_columns(int(i)))
+        for (int a = 0; a < Dim; ++a) n_held[column] |= axes[a] << a;
+    for (int column = 0; column < n; ++column)
+      if (n_held[column] == (1 << Dim) - 1) held.push_back(column);
+    return plan_elimination(n, cliques, held);
+  }
+
+  // The unknowns that a pin holds, and which of their components. Condensed: all of its own column.
+  std::vector<std::pair<int, std::array<bool, Dim>>> held_columns(int pin) const {
+    std::array<bool, Dim> all;
+    all.fill(true);
+    if (condensed()) return {{first_pin_column_ + pin, all}};
+    std::vector<std::pair<int, std::array<bool, Dim>>> columns;
+    for (const int control : model_->held[pin].controls)
+      columns.push_back({unknown_of_control(model_->discretization.unknowns, control).value(), scene_.pins[pin].axes});
+    return columns;
   }
 
   // 10 n^2 E / h with the mean size h of a part and E of the first solid: the
@@ -330,21 +365,14 @@ class Builder {
     std::vector<bool> held(system.size(), false);
     for (size_t i = 0; i < scene_.pins.size(); ++i) {
       const auto& pin = scene_.pins[i];
-      const auto hold = [&](int column, bool all_axes) {
+      for (const auto& [column, axes] : held_columns(int(i)))
         for (int a = 0; a < Dim; ++a) {
           const int entry = Dim * column + a;
-          if (all_axes || pin.axes[a]) held[entry] = true;
+          if (axes[a]) held[entry] = true;
           if (!pin.axes[a]) continue;
           model_->held[i].entries.push_back(entry);
           model_->target[entry] = system.rest[entry] + pin.displacement[a];
         }
-      };
-      if (condensed()) {
-        hold(first_pin_column_ + int(i), true);
-        continue;
-      }
-      for (const int control : model_->held[i].controls)
-        hold(unknown_of_control(model_->discretization.unknowns, control).value(), false);
     }
     for (int entry = 0; entry < system.size(); ++entry)
       if (!held[entry]) system.free.push_back(entry);

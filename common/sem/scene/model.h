@@ -25,12 +25,11 @@ struct Model {
   Discretization<Dim> discretization;
   MaterialField materials;
   Eigen::VectorXd point_mass;       ///< #points, kg: density times v_k
-  Eigen::MatrixXd mass;             ///< scalar mass matrix, kinetic stability term included
-  Eigen::MatrixXd stability;        ///< scalar error form, without gamma
+  SymmetricMatrix stability;        ///< scalar error form, without gamma; empty if condensed
   double stability_stiffness = 0;   ///< gamma used, Pa/m
   BlendedField<Dim> pressure;       ///< functions of the materials' own pressure; none: 0 functions
   std::unique_ptr<InternalEnergy<Dim>> energy;
-  System system;                    ///< refers to energy
+  System system;                    ///< refers to energy; its mass is scalar, kinetic stability term included
   State initial;
   Eigen::VectorXd target;           ///< z with the prescribed displacements of the pins
   std::vector<Held> held;           ///< per pin

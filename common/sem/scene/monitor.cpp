@@ -45,12 +45,7 @@ Monitor<Dim>::Monitor(const Scene<Dim>& scene, const Model<Dim>& model) : scene_
   }
   const bool massless = model.total_mass() == 0;
   const VectorXd share = massless ? d.quadrature.weight : model.point_mass;
-  centroid_ = VectorXd::Zero(d.unknowns.size());
-  for (const auto& block : d.interior.blocks) {
-    const VectorXd local = share(block.points) / share.sum();
-    for (size_t j = 0; j < block.columns.size(); ++j)
-      centroid_[block.columns[j]] += block.value.col(j).dot(local);
-  }
+  centroid_ = evaluate_transposed<Dim>(d.interior, Vec<Dim>::Ones() * share.transpose() / share.sum()).row(0);
 }
 
 template <int Dim>
@@ -80,7 +75,7 @@ std::vector<double> Monitor<Dim>::probes(const State& state, const VectorXd& acc
         own_pressure = model_.energy->pressure_coefficients(state.z);
       const double pressure = probe_pressure_[i].size() > 0 ? probe_pressure_[i].dot(own_pressure) : 0;
       const Mat<Dim> stress = cauchy_stress<Dim>(model_.materials.materials[probe_material_[i]],
-                                                 deformation_gradient(probe_maps_[i].blocks[0], 0, state.z),
+                                                 deformation_gradient(probe_maps_[i].blocks[0], 0, coefficients(probe_maps_[i], state.z)),
                                                  probe_pressure_[i].size() > 0 ? &pressure : nullptr);
       for (int a = 0; a < Dim; ++a)
         for (int b = a; b < Dim; ++b) values.push_back(stress(a, b));
@@ -112,11 +107,7 @@ std::vector<double> Monitor<Dim>::row(const State& state, const VectorXd& accele
                                       double residual, int n_substeps) const {
   const int n = model_.discretization.unknowns.size();
   const Eigen::Map<const Points<Dim>> nodes(state.z.data(), Dim, n), rates(state.v.data(), Dim, n);
-  Points<Dim> momenta(Dim, n);
-  for (int a = 0; a < Dim; ++a) {
-    const VectorXd rate = rates.row(a);
-    momenta.row(a) = model_.mass * rate;
-  }
+  const Points<Dim> momenta = (model_.system.mass * state.v).reshaped(Dim, n);
   const double kinetic = rates.cwiseProduct(momenta).sum() / 2;
   const double elastic = model_.energy->elastic_energy(state.z);
   const double stability = model_.energy->stability_energy(state.z);

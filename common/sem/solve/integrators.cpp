@@ -43,14 +43,13 @@ TimeStepper::TimeStepper(const System& system, double dt, Integrator integrator,
       theta_(integrator == Integrator::implicit_midpoint ? 0.5 : 1),
       quadratic_(system.potential->quadratic()),
       newton_(system),
-      cholesky_(int(system.free.size())) {
+      stiffness_(system.potential->new_hessian()),
+      matrix_(stiffness_),
+      cholesky_(stiffness_.plan(), stiffness_.components(), system.free) {
   assert(dt > 0);
-  const int n = system.size(), n_free = int(system.free.size());
-  stiffness_.resize(n, n);
-  matrix_.resize(n_free, n_free);
-  for (auto* v : {&rest_gradient_, &z_, &v_, &gradient_, &work_, &increment_, &drift_, &zero_})
+  const int n = system.size();
+  for (auto* v : {&rest_gradient_, &z_, &v_, &gradient_, &work_, &increment_, &drift_, &zero_, &rhs_, &dv_})
     v->setZero(n);
-  for (auto* v : {&rhs_, &dv_, &free_work_}) v->setZero(n_free);
   if (!quadratic_) return;
   rest_energy_ = system.potential->energy(system.rest);
   system.potential->gradient(system.rest, rest_gradient_);
@@ -124,21 +123,20 @@ Status TimeStepper::advance_linear(double dt, StepReport& report) {
   if (status != Status::converged) return status;
   ++report.iterations;
   set_gradient(z_);
-  work_.noalias() = stiffness_ * v_;
-  const auto& free = system_.free;
-  for (size_t a = 0; a < free.size(); ++a) {
-    const int i = free[a];
-    rhs_(a) = -dt * (gradient_(i) - system_.load(i) + theta_ * dt * work_(i));
-  }
+  stiffness_.multiply(v_, work_);
+  rhs_.setZero();
+  for (const int i : system_.free) rhs_(i) = -dt * (gradient_(i) - system_.load(i) + theta_ * dt * work_(i));
   dv_ = rhs_;
   cholesky_.solve_in_place(dv_);
-  free_work_.noalias() = matrix_ * dv_;
-  const double size = rhs_.norm();
-  if (size > 0) report.residual = std::max(report.residual, (free_work_ - rhs_).norm() / size);
-  for (size_t a = 0; a < free.size(); ++a) {
-    z_(free[a]) += dt * (v_(free[a]) + theta_ * dv_(a));
-    v_(free[a]) += dv_(a);
+  matrix_.multiply(dv_, work_);
+  double error = 0;
+  for (const int i : system_.free) {
+    error += (work_(i) - rhs_(i)) * (work_(i) - rhs_(i));
+    z_(i) += dt * (v_(i) + theta_ * dv_(i));
+    v_(i) += dv_(i);
   }
+  const double size = rhs_.norm();
+  if (size > 0) report.residual = std::max(report.residual, std::sqrt(error) / size);
   return Status::converged;
 }
 
@@ -165,7 +163,7 @@ Status TimeStepper::factorize(double dt) {
   factorized_dt_ = 0;
   if (!quadratic_) set_stiffness(false);
   if (!factorize_matrix(dt)) {
-    if (!matrix_.allFinite()) return Status::not_finite;
+    if (!matrix_.all_finite()) return Status::not_finite;
     if (quadratic_) return Status::singular;
     set_stiffness(true);
     if (!factorize_matrix(dt)) return Status::singular;
@@ -175,11 +173,9 @@ Status TimeStepper::factorize(double dt) {
 }
 
 bool TimeStepper::factorize_matrix(double dt) {
-  const double weight = theta_ * theta_ * dt * dt;
-  const auto& free = system_.free;
-  for (size_t b = 0; b < free.size(); ++b)
-    for (size_t a = 0; a < free.size(); ++a)
-      matrix_(a, b) = system_.mass(free[a], free[b]) + weight * stiffness_(free[a], free[b]);
+  matrix_ = stiffness_;
+  matrix_ *= theta_ * theta_ * dt * dt;
+  matrix_.add(1, system_.mass);
   ++counters_.n_factorizations;
   return cholesky_.compute(matrix_);
 }
@@ -196,19 +192,19 @@ void TimeStepper::set_gradient(const Eigen::VectorXd& z) {
     return;
   }
   increment_ = z - system_.rest;
-  gradient_.noalias() = stiffness_ * increment_;
+  stiffness_.multiply(increment_, gradient_);
   gradient_ += rest_gradient_;
 }
 
 double TimeStepper::potential_energy(const Eigen::VectorXd& z) {
   if (!quadratic_) return system_.potential->energy(z);
   increment_ = z - system_.rest;
-  work_.noalias() = stiffness_ * increment_;
+  stiffness_.multiply(increment_, work_);
   return rest_energy_ + rest_gradient_.dot(increment_) + increment_.dot(work_) / 2;
 }
 
 void TimeStepper::set_energies(const State& state, double potential, Energies& energies) {
-  work_.noalias() = system_.mass * state.v;
+  system_.mass.multiply(state.v, work_);
   energies.kinetic = state.v.dot(work_) / 2;
   energies.potential = potential;
   energies.load = -system_.load.dot(state.z);

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "sem/solve/cholesky.h"
 #include "sem/solve/newton.h"
 #include "sem/solve/system.h"
 
@@ -42,7 +41,7 @@ struct StepReport {
 /// Advances a state by fixed steps. A quadratic potential is assembled once, in
 /// the constructor, and M + c dt^2 K is factorised once and again only when dt
 /// changes (a retry in substeps changes it). step() allocates nothing then, and
-/// nothing of its own otherwise (Eigen: see Cholesky). The result depends on the
+/// nothing of its own otherwise. The result depends on the
 /// state alone, not on steps taken before: a resumed run repeats the bits.
 class TimeStepper {
  public:
@@ -84,11 +83,11 @@ class TimeStepper {
   double factorized_dt_ = 0;
   Counters counters_;
   Newton newton_;
-  Cholesky cholesky_;
-  Eigen::MatrixXd stiffness_, matrix_;  // n by n; n_free by n_free
+  SymmetricMatrix stiffness_, matrix_;
+  SparseCholesky cholesky_;
   double rest_energy_ = 0, end_energy_ = 0;
   Eigen::VectorXd rest_gradient_, z_, v_, gradient_, work_, increment_, drift_, zero_;
-  Eigen::VectorXd rhs_, dv_, free_work_;
+  Eigen::VectorXd rhs_, dv_;
 };
 
 }  // namespace sem

@@ -12,10 +12,6 @@ namespace sem {
 
 namespace {
 
-Eigen::MatrixXd free_block(const Eigen::MatrixXd& A, const std::vector<int>& free) {
-  return A(free, free);
-}
-
 // Factorises K + s M with the smallest of a few shifts s that make it well positive definite; false if none does.
 // None is tiny: rigid motions with mu = 1/s must not drown the others.
 bool factorize_shifted(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, Cholesky& cholesky) {
@@ -40,10 +36,10 @@ Modes vibration_modes(const System& system, const Eigen::VectorXd& z, int n_mode
   Modes modes;
   modes.shapes.resize(n, 0);
   if (n_free == 0) return modes;
-  Eigen::MatrixXd hessian(n, n);
+  SymmetricMatrix hessian = system.potential->new_hessian(), mass = hessian;
   system.potential->hessian(z, false, hessian);
-  const Eigen::MatrixXd K = free_block(hessian, system.free);
-  const Eigen::MatrixXd M = free_block(system.mass, system.free);
+  mass.add(1, system.mass);
+  const Eigen::MatrixXd K = hessian.dense(system.free), M = mass.dense(system.free);
   if (!K.allFinite() || !M.allFinite()) {
     modes.status = Status::not_finite;
     return modes;

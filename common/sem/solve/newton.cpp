@@ -18,13 +18,14 @@ constexpr double rounding_margin = 32, small_residual = 1e-4;
 constexpr double first_shift = 1e-3, last_shift = 10;  // shares of the diagonal
 }  // namespace
 
-Newton::Newton(const System& system) : system_(system), cholesky_(int(system.free.size())) {
-  const int n = system.size(), n_free = int(system.free.size());
-  hessian_.resize(n, n);
-  matrix_.resize(n_free, n_free);
+Newton::Newton(const System& system)
+    : system_(system),
+      hessian_(system.potential->new_hessian()),
+      matrix_(hessian_),
+      cholesky_(hessian_.plan(), hessian_.components(), system.free) {
+  const int n = system.size();
   for (auto* v : {&z_, &gradient_, &inertial_, &residual_, &step_, &trial_, &mass_step_, &work_})
     v->setZero(n);
-  free_work_.setZero(n_free);
 }
 
 // Energy, gradient and residual at u; +infinity (and no gradient) if inadmissible.
@@ -36,22 +37,21 @@ double Newton::evaluate(const IncrementProblem& problem, const Eigen::VectorXd& 
   inertial_.setZero();
   if (problem.inertia > 0) {
     work_ = u - problem.drift;
-    inertial_.noalias() = problem.inertia * (system_.mass * work_);
+    system_.mass.multiply(work_, inertial_);
+    inertial_ *= problem.inertia;
   }
   residual_.setZero();
   for (const int i : system_.free) residual_(i) = gradient_(i) - problem.load(i) + inertial_(i);
   return energy;
 }
 
-// matrix_ = free block of H(z_) + inertia M.
+// matrix_ = H(z_) + inertia M.
 void Newton::assemble(double inertia, bool project_psd) {
   system_.potential->hessian(z_, project_psd, hessian_);
   ++counters_.n_hessians;
   if (project_psd) ++counters_.n_psd_projections;
-  const auto& free = system_.free;
-  for (size_t b = 0; b < free.size(); ++b)
-    for (size_t a = 0; a < free.size(); ++a)
-      matrix_(a, b) = hessian_(free[a], free[b]) + inertia * system_.mass(free[a], free[b]);
+  matrix_ = hessian_;
+  if (inertia > 0) matrix_.add(inertia, system_.mass);
 }
 
 bool Newton::factorize() {
@@ -59,10 +59,11 @@ bool Newton::factorize() {
   return cholesky_.compute(matrix_);
 }
 
-// Adds a share of the raw matrix's diagonal, left in free_work_.
+// Adds a share of the raw matrix's diagonal, left in diagonal_.
 void Newton::add_shift(double share) {
-  const double mean = free_work_.mean();
-  matrix_.diagonal().array() += share * free_work_.array().max(1e-3 * mean);
+  double mean = 0;
+  for (const int i : system_.free) mean += diagonal_(i) / double(system_.free.size());
+  matrix_.add_to_diagonal(share * diagonal_.cwiseMax(1e-3 * mean));
   ++counters_.n_shifts;
 }
 
@@ -70,15 +71,15 @@ void Newton::add_shift(double share) {
 Status Newton::direction(double inertia) {
   assemble(inertia, false);
   if (factorize()) return Status::converged;
-  if (!matrix_.allFinite()) return Status::not_finite;
+  if (!matrix_.all_finite()) return Status::not_finite;
   assemble(inertia, true);
   if (factorize()) return Status::converged;
   // Singular: by the projection alone (a shift helps), or for want of stiffness?
   assemble(inertia, false);
-  if (is_singular(matrix_)) return Status::singular;
-  free_work_ = matrix_.diagonal().cwiseAbs();
+  if (is_singular(matrix_.dense(system_.free))) return Status::singular;
+  diagonal_ = matrix_.diagonal().cwiseAbs();
   assemble(inertia, true);
-  if (!matrix_.allFinite()) return Status::not_finite;
+  if (!matrix_.all_finite()) return Status::not_finite;
   for (double share = first_shift; share <= last_shift; share *= 10) {
     add_shift(share);
     if (factorize()) return Status::converged;
@@ -87,14 +88,11 @@ Status Newton::direction(double inertia) {
 }
 
 // True if r is as small as the rounding of forces that are sums of H_ij z_j.
-bool Newton::is_rounding(double residual, double norm) const {
+bool Newton::is_rounding(double residual, double norm) {
   if (residual > small_residual) return false;
+  hessian_.absolute_product(z_, work_);
   double sum = 0;
-  for (const int i : system_.free) {
-    double row = std::abs(inertial_(i));
-    for (int j = 0; j < hessian_.cols(); ++j) row += std::abs(hessian_(j, i) * z_(j));
-    sum += row * row;
-  }
+  for (const int i : system_.free) sum += std::pow(work_(i) + std::abs(inertial_(i)), 2);
   return norm <= rounding_margin * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
 }
 
@@ -103,11 +101,10 @@ bool Newton::is_rounding(double residual, double norm) const {
 bool Newton::predict(const IncrementProblem& problem, Eigen::VectorXd& u) {
   step_ = problem.prescribed - u;
   for (const int i : system_.free) step_(i) = 0;
-  work_.noalias() = hessian_ * step_;
-  for (size_t a = 0; a < system_.free.size(); ++a)
-    free_work_(a) = -residual_(system_.free[a]) - work_(system_.free[a]);
-  cholesky_.solve_in_place(free_work_);
-  for (size_t a = 0; a < system_.free.size(); ++a) step_(system_.free[a]) = free_work_(a);
+  hessian_.multiply(step_, work_);
+  work_ = -residual_ - work_;
+  cholesky_.solve_in_place(work_);
+  step_ += work_;
   trial_ = u + step_;
   energy_ = evaluate(problem, trial_);
   if (!std::isfinite(energy_) || !residual_.allFinite()) return false;
@@ -118,17 +115,15 @@ bool Newton::predict(const IncrementProblem& problem, Eigen::VectorXd& u) {
 // Backtracks along the Newton direction from u, where energy_ and residual_ are
 // known; leaves both at the new u.
 bool Newton::line_search(const IncrementProblem& problem, Eigen::VectorXd& u) {
-  for (size_t a = 0; a < system_.free.size(); ++a) free_work_(a) = -residual_(system_.free[a]);
-  cholesky_.solve_in_place(free_work_);
-  step_.setZero();
-  for (size_t a = 0; a < system_.free.size(); ++a) step_(system_.free[a]) = free_work_(a);
+  step_ = -residual_;
+  cholesky_.solve_in_place(step_);
 
   const double slope = residual_.dot(step_), old_norm = residual_.norm(), old_energy = energy_;
   // The part of the objective besides V, along the line: linear alpha + curvature alpha^2 / 2.
   const double linear = inertial_.dot(step_) - problem.load.dot(step_);
   double curvature = 0;
   if (problem.inertia > 0) {
-    mass_step_.noalias() = system_.mass * step_;
+    system_.mass.multiply(step_, mass_step_);
     curvature = problem.inertia * step_.dot(mass_step_);
   }
   if (!(slope < 0)) return false;
@@ -151,7 +146,11 @@ bool Newton::line_search(const IncrementProblem& problem, Eigen::VectorXd& u) {
 }
 
 double Newton::reference_force(const IncrementProblem& problem) {
-  work_.noalias() = problem.inertia * (system_.mass * problem.drift);
+  work_.setZero();
+  if (problem.inertia > 0) {
+    system_.mass.multiply(problem.drift, work_);
+    work_ *= problem.inertia;
+  }
   double load = 0, drift = 0;
   for (const int i : system_.free) {
     load += problem.load(i) * problem.load(i);

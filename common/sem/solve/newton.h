@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "sem/solve/cholesky.h"
+#include "sem/solve/sparse_cholesky.h"
 #include "sem/solve/system.h"
 
 namespace sem {
@@ -73,16 +73,16 @@ class Newton {
   Status direction(double inertia);
   bool predict(const IncrementProblem& problem, Eigen::VectorXd& u);
   bool line_search(const IncrementProblem& problem, Eigen::VectorXd& u);
-  bool is_rounding(double residual, double norm) const;
+  bool is_rounding(double residual, double norm);
   double reference_force(const IncrementProblem& problem);
   bool pins_move(const IncrementProblem& problem);
 
   const System& system_;
   Counters counters_;
-  Cholesky cholesky_;
-  Eigen::MatrixXd hessian_, matrix_;  // n by n; n_free by n_free
+  SymmetricMatrix hessian_, matrix_;
+  SparseCholesky cholesky_;
   Eigen::VectorXd z_, gradient_, inertial_, residual_, step_, trial_, mass_step_, work_;
-  Eigen::VectorXd free_work_;
+  Eigen::VectorXd diagonal_;
   double energy_ = 0;
 };
 

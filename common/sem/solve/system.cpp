@@ -2,6 +2,14 @@
 
 namespace sem {
 
+SymmetricMatrix Potential::new_hessian() const { return {dense_elimination(size()), 1}; }
+
+Eigen::MatrixXd Potential::dense_hessian(const Eigen::VectorXd& z, bool project_psd) {
+  SymmetricMatrix H = new_hessian();
+  hessian(z, project_psd, H);
+  return H.dense();
+}
+
 const char* name(Status status) {
   switch (status) {
     case Status::converged:

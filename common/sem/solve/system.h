@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "sem/solve/symmetric_matrix.h"
+
 namespace sem {
 
 /// Energy V(z) in J of n unknowns. Implemented by the mechanics layer; by
@@ -20,9 +22,13 @@ class Potential {
   virtual double energy(const Eigen::VectorXd& z) = 0;
   /// g = dV/dz, n. g has the right size on entry. Only called where V is finite.
   virtual void gradient(const Eigen::VectorXd& z, Eigen::VectorXd& g) = 0;
-  /// H = d2V/dz2, n by n, both triangles; with project_psd a positive
-  /// semi-definite approximation of it. H has the right size on entry.
-  virtual void hessian(const Eigen::VectorXd& z, bool project_psd, Eigen::MatrixXd& H) = 0;
+  /// H = d2V/dz2; with project_psd a positive semi-definite approximation of it. H is one
+  /// that new_hessian made.
+  virtual void hessian(const Eigen::VectorXd& z, bool project_psd, SymmetricMatrix& H) = 0;
+  /// Room for a Hessian: which entries it has and how they are eliminated. Here all, in their order.
+  virtual SymmetricMatrix new_hessian() const;
+  /// The Hessian as a dense matrix, for small problems.
+  Eigen::MatrixXd dense_hessian(const Eigen::VectorXd& z, bool project_psd = false);
   /// True if V is quadratic: H does not depend on z. Solvers then ask for it
   /// once, and for no gradient in the step loop.
   virtual bool quadratic() const = 0;
@@ -31,7 +37,7 @@ class Potential {
 /// M, f, pins. The potential is not owned. All vectors have size n.
 struct System {
   Potential* potential = nullptr;
-  Eigen::MatrixXd mass;   ///< M, kg, n by n, symmetric positive semi-definite (both triangles)
+  SymmetricMatrix mass;   ///< M, kg, positive semi-definite; in the plan of the potential's Hessian, or dense
   Eigen::VectorXd load;   ///< f, N: constant dead load; total potential V(z) - f . z
   std::vector<int> free;  ///< indices of the unknowns that are not pinned, ascending
   Eigen::VectorXd rest;   ///< z of the rest shape

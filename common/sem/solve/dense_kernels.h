@@ -1,0 +1,31 @@
+#pragma once
+// The dense inner loops of factorisation and assembly: Eigen's, compiled once for every processor and once
+// with AVX2 and FMA (2 to 3 times faster there); which ones run is decided when the program starts. All
+// matrices are stored by columns; ld: entries from one column to the next.
+
+namespace sem {
+
+/// A set of instructions' kernels.
+struct DenseKernels {
+  const char* name;  ///< of the instructions
+  /// A = L L^T in the lower triangle of the n by n A, in place; the rest is not touched. False if A is not
+  /// positive definite.
+  bool (*cholesky)(double* A, int n, int ld);
+  /// B := B L^-T, B m by n, L n by n, its lower triangle read.
+  void (*solve_right)(const double* L, int ld_l, double* B, int ld_b, int m, int n);
+  /// C -= A B^T, C m by n, A m by k, B n by k.
+  void (*subtract_product)(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int m, int n, int k);
+  /// C += A^T B, C m by n, A k by m, B k by n.
+  void (*add_product)(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int m, int n, int k);
+  /// The lower triangle of C += A^T B, C n by n, for a product that is symmetric.
+  void (*add_lower_product)(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int n, int k);
+};
+
+/// Those of this processor.
+const DenseKernels& dense_kernels();
+
+namespace detail {
+extern const DenseKernels portable_dense_kernels, avx2_dense_kernels;
+}
+
+}  // namespace sem

@@ -1,0 +1,48 @@
+// The kernels of dense_kernels.h, included once a set of instructions: Eigen is renamed, so that the
+// templates compiled for one are no one else's.
+#define Eigen SEM_KERNEL_EIGEN
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "sem/solve/dense_kernels.h"
+
+namespace sem::detail {
+namespace {
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
+using View = Eigen::Map<Matrix, 0, Eigen::OuterStride<>>;
+using ConstView = Eigen::Map<const Matrix, 0, Eigen::OuterStride<>>;
+
+View view(double* A, int rows, int columns, int ld) { return {A, rows, columns, Eigen::OuterStride<>(ld)}; }
+ConstView view(const double* A, int rows, int columns, int ld) { return {A, rows, columns, Eigen::OuterStride<>(ld)}; }
+
+bool cholesky(double* A, int n, int ld) {
+  auto all = view(A, n, n, ld);
+  Eigen::Ref<Matrix> target(all);
+  const Eigen::LLT<Eigen::Ref<Matrix>> factor(target);  // in place
+  return factor.info() == Eigen::Success;
+}
+
+void solve_right(const double* L, int ld_l, double* B, int ld_b, int m, int n) {
+  auto target = view(B, m, n, ld_b);
+  view(L, n, n, ld_l).transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(target);
+}
+
+void subtract_product(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int m, int n, int k) {
+  view(C, m, n, ld_c).noalias() -= view(A, m, k, ld_a) * view(B, n, k, ld_b).transpose();
+}
+
+void add_product(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int m, int n, int k) {
+  view(C, m, n, ld_c).noalias() += view(A, k, m, ld_a).transpose() * view(B, k, n, ld_b);
+}
+
+void add_lower_product(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int n, int k) {
+  auto target = view(C, n, n, ld_c);
+  target.triangularView<Eigen::Lower>() += view(A, k, n, ld_a).transpose() * view(B, k, n, ld_b);
+}
+
+}  // namespace
+
+const DenseKernels SEM_KERNELS{SEM_KERNEL_NAME, cholesky, solve_right, subtract_product, add_product, add_lower_product};
+
+}  // namespace sem::detail
