@@ -4,17 +4,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "sem/base/rotation.h"
 #include "src3d/shapes/surfaces.h"
 
 namespace sem::shapes3d {
 
 Mat<3> Placement::linear() const {
-  const Vec<3> a = axis.normalized();
-  const Vec<2> e = direction(angle);
-  Mat<3> cross;
-  cross << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-  const Mat<3> R = e[0] * Mat<3>::Identity() + e[1] * cross + (1 - e[0]) * a * a.transpose();
-  return R * scale.asDiagonal();
+  return rotation<3>(angle * axis.normalized()) * scale.asDiagonal();
 }
 
 void place(Parts& parts, const Placement& placement) {

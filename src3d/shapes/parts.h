@@ -16,8 +16,7 @@ struct Placement {
   double angle = 0;       ///< rad
   Vec<3> move{0, 0, 0};   ///< m
 
-  Mat<3> linear()
-      const;  ///< R diag(scale); Rodrigues' formula, exact for quarter turns about x, y, z
+  Mat<3> linear() const;  ///< R diag(scale)
 };
 void place(Parts& parts, const Placement& placement);
 

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "sem/base/rotation.h"
 #include "sem/nurbs/refine.h"
 
 namespace sem::shapes3d {

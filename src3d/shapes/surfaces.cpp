@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sem/base/rotation.h"
 #include "sem/nurbs/basis.h"
 #include "sem/nurbs/refine.h"
 
@@ -168,23 +169,6 @@ Patch bilinear(const Homogeneous& corners) {
 }
 
 }  // namespace
-
-Vec<2> direction(double angle) {
-  const double quarters = std::round(angle / (M_PI / 2));
-  const double rest = angle - quarters * (M_PI / 2);
-  const bool exact = std::abs(rest) < 1e-15 * std::max(1.0, std::abs(angle));
-  const double c = exact ? 1 : std::cos(rest), s = exact ? 0 : std::sin(rest);
-  switch (((int(quarters) % 4) + 4) % 4) {
-    case 0:
-      return {c, s};
-    case 1:
-      return {-s, c};
-    case 2:
-      return {-c, -s};
-    default:
-      return {s, -c};
-  }
-}
 
 Curve in_space(const Nurbs<1, 2>& curve, const Vec<3>& origin, const Vec<3>& e1, const Vec<3>& e2) {
   Curve result;

@@ -51,7 +51,4 @@ std::vector<Patch> split(const Patch& patch, int n_u, int n_v);
 /// The same patch with both degrees raised to at least this.
 Patch elevated(Patch patch, int degree);
 
-/// (cos, sin) of an angle in rad; exact at multiples of 90 degrees.
-Vec<2> direction(double angle);
-
 }  // namespace sem::shapes3d
