@@ -25,8 +25,11 @@ void visit_points(const Parts& parts, int n, const Visit& visit) {
     const auto& shape = part.shape;
     for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= n; ++j) {
-        const auto share = [](const Interval& d, double s) { return s == 1 ? d.upper : d.lower + s * (d.upper - d.lower); };
-        const Param<2> u(share(domain(shape, 0), double(i) / n), share(domain(shape, 1), double(j) / n));
+        const auto share = [](const Interval& d, double s) {
+          return s == 1 ? d.upper : d.lower + s * (d.upper - d.lower);
+        };
+        const Param<2> u(share(domain(shape, 0), double(i) / n),
+                         share(domain(shape, 1), double(j) / n));
         visit(derivatives(shape, u, 1));
       }
   }
@@ -46,8 +49,10 @@ Moments<3> moments(const Shape& parts) {
 
 // Area by a rule of 20 Gauss points a span; exact to rounding only for plane patches.
 double area(const Parts& parts) {
-  static const double node[] = {0.9739065285171717, 0.8650633666889845, 0.6794095682990244, 0.4333953941292472, 0.1488743389816312};
-  static const double weight[] = {0.0666713443086881, 0.1494513491505806, 0.2190863625159820, 0.2692667193099963, 0.2955242247147529};
+  static const double node[] = {0.9739065285171717, 0.8650633666889845, 0.6794095682990244,
+                                0.4333953941292472, 0.1488743389816312};
+  static const double weight[] = {0.0666713443086881, 0.1494513491505806, 0.2190863625159820,
+                                  0.2692667193099963, 0.2955242247147529};
   double sum = 0;
   for (const auto& part : parts)
     for (const auto& su : spans(part.shape, 0))
@@ -55,22 +60,25 @@ double area(const Parts& parts) {
         for (int i = 0; i < 10; ++i)
           for (int j = 0; j < 10; ++j) {
             const auto at = [&](const Interval& s, int k) {
-              return (s.lower + s.upper) / 2 + (s.upper - s.lower) / 2 * (k < 5 ? -node[k] : node[9 - k]);
+              return (s.lower + s.upper) / 2 +
+                     (s.upper - s.lower) / 2 * (k < 5 ? -node[k] : node[9 - k]);
             };
             const auto d = derivatives(part.shape, Param<2>(at(su, i), at(sv, j)), 1);
-            sum += DimTraits<3>::area_normal(d.first).norm() * (su.upper - su.lower) * (sv.upper - sv.lower) / 4 *
-                   weight[i < 5 ? i : 9 - i] * weight[j < 5 ? j : 9 - j];
+            sum += DimTraits<3>::area_normal(d.first).norm() * (su.upper - su.lower) *
+                   (sv.upper - sv.lower) / 4 * weight[i < 5 ? i : 9 - i] *
+                   weight[j < 5 ? j : 9 - j];
           }
   return sum;
 }
 
 using Edge = std::vector<std::array<double, 4>>;
 
-// Control points with weights of the four edges of a clamped patch, in a direction that does not depend on the
-// patch; edges of no length left out.
+// Control points with weights of the four edges of a clamped patch, in a direction that does not
+// depend on the patch; edges of no length left out.
 std::vector<Edge> edges(const Nurbs<2, 3>& patch) {
   const int nu = n_control(patch, 0), nv = n_control(patch, 1);
-  const int first[4] = {0, (nv - 1) * nu, 0, nu - 1}, stride[4] = {1, 1, nu, nu}, n[4] = {nu, nu, nv, nv};
+  const int first[4] = {0, (nv - 1) * nu, 0, nu - 1}, stride[4] = {1, 1, nu, nu},
+            n[4] = {nu, nu, nv, nv};
   std::vector<Edge> result;
   for (int e = 0; e < 4; ++e) {
     Edge edge;
@@ -171,7 +179,9 @@ TEST_CASE("box of raised degree: volume and first moment from its boundary, join
   }
 }
 
-TEST_CASE("sphere: six patches without poles, every point at the radius, closed, outward, volume and inertia") {
+TEST_CASE(
+    "sphere: six patches without poles, every point at the radius, closed, outward, volume and "
+    "inertia") {
   Sphere sphere;
   sphere.center << 0.3, -0.2, 1;
   sphere.radius = 1.7;
@@ -195,8 +205,11 @@ TEST_CASE("sphere: six patches without poles, every point at the radius, closed,
   CHECK(area(parts) == doctest::Approx(4 * M_PI * 1.7 * 1.7).epsilon(1e-9));
 }
 
-TEST_CASE("torus: every point at the tube's radius, closed, outward, volume and area by Pappus, for any number of parts") {
-  for (const std::array<int, 2> n : {std::array{4, 1}, std::array{4, 4}, std::array{3, 5}, std::array{1, 2}}) {
+TEST_CASE(
+    "torus: every point at the tube's radius, closed, outward, volume and area by Pappus, for any "
+    "number of parts") {
+  for (const std::array<int, 2> n :
+       {std::array{4, 1}, std::array{4, 4}, std::array{3, 5}, std::array{1, 2}}) {
     CAPTURE(n[0]);
     CAPTURE(n[1]);
     Torus torus;
@@ -212,10 +225,13 @@ TEST_CASE("torus: every point at the tube's radius, closed, outward, volume and 
       return Vec<3>(Y - 2 * Vec<3>(Y[0], Y[1], 0).normalized());
     };
     double worst = 0;
-    visit_points(parts, 20, [&](const auto& d) { worst = std::max(worst, std::abs(from_middle(d.point).norm() - 0.75)); });
+    visit_points(parts, 20, [&](const auto& d) {
+      worst = std::max(worst, std::abs(from_middle(d.point).norm() - 0.75));
+    });
     CHECK(worst < tight * 2);
     check_outward(parts, from_middle);
-    CHECK(moments(parts).volume == doctest::Approx(2 * M_PI * M_PI * 2 * 0.75 * 0.75).epsilon(1e-12));
+    CHECK(moments(parts).volume ==
+          doctest::Approx(2 * M_PI * M_PI * 2 * 0.75 * 0.75).epsilon(1e-12));
     CHECK(area(parts) == doctest::Approx(4 * M_PI * M_PI * 2 * 0.75).epsilon(1e-7));
   }
 }
@@ -237,16 +253,19 @@ TEST_CASE("cylinder and cone frustum: points, closed, outward, volume and area")
     });
     CHECK(worst < tight);
     check_outward(parts, [](const Vec<3>& X) { return Vec<3>(X - Vec<3>(0, 0, 1)); });
-    CHECK(moments(parts).volume == doctest::Approx(M_PI * 2 / 3 * (1.5 * 1.5 + 1.5 * top + top * top)).epsilon(1e-12));
+    CHECK(moments(parts).volume ==
+          doctest::Approx(M_PI * 2 / 3 * (1.5 * 1.5 + 1.5 * top + top * top)).epsilon(1e-12));
     const double slant = std::hypot(2, 1.5 - top);
-    CHECK(area(parts) == doctest::Approx(M_PI * ((1.5 + top) * slant + 1.5 * 1.5 + top * top)).epsilon(1e-9));
+    CHECK(area(parts) ==
+          doctest::Approx(M_PI * ((1.5 + top) * slant + 1.5 * 1.5 + top * top)).epsilon(1e-9));
   }
 }
 
 TEST_CASE("extrusion: plane profile and caps of every kind enclose area times height") {
   Extrusion extrusion;
   extrusion.by << 0.3, 0.1, 2;
-  const auto check_solid = [&](const Profile& profile, Caps caps, size_t n_parts, double profile_area) {
+  const auto check_solid = [&](const Profile& profile, Caps caps, size_t n_parts,
+                               double profile_area) {
     extrusion.profile = profile;
     extrusion.caps = caps;
     const Parts parts = make_parts(extrusion);
@@ -286,7 +305,9 @@ TEST_CASE("revolution: whole and partial turns, poles on the axis, parts on the 
   const Parts piece = make_parts(pie);
   REQUIRE(piece.size() == 3 * 2 + 2);
   CHECK(moments(piece).volume == doctest::Approx(4 * pie.angle / 2).epsilon(1e-12));
-  check_outward(piece, [&](const Vec<3>& X) { return Vec<3>(X - Vec<3>(std::cos(pie.angle / 2), std::sin(pie.angle / 2), 0.5)); });
+  check_outward(piece, [&](const Vec<3>& X) {
+    return Vec<3>(X - Vec<3>(std::cos(pie.angle / 2), std::sin(pie.angle / 2), 0.5));
+  });
 
   Revolution ring;  // Pappus
   ring.profile = rectangle(1, -0.5, 2, 0.5);
@@ -324,8 +345,9 @@ TEST_CASE("loft: through its sections exactly; of scaled discs a solid of known 
   const Parts parts = make_parts(limb);
   check_joined(parts);
   for (const auto& section : limb.sections) {
-    const Curve curve = mapped(in_space(section.profile[1].shape, Vec<3>::Zero(), Vec<3>::UnitX(), Vec<3>::UnitY()),
-                               section.placement.linear(), section.placement.move);
+    const Curve curve =
+        mapped(in_space(section.profile[1].shape, Vec<3>::Zero(), Vec<3>::UnitX(), Vec<3>::UnitY()),
+               section.placement.linear(), section.placement.move);
     const auto surface = prepare(parts[1].shape);
     for (double u : {0.0, 0.3, 0.7, 1.0})
       CHECK(closest_point(surface, point(curve, Param<1>(u))).distance < 1e-13);
@@ -346,7 +368,8 @@ TEST_CASE("ruled: a hyperbolic paraboloid's points and lines") {
   const Patch patch = ruled(a, b);
   for (double u : {0.0, 0.3, 1.0})
     for (double v : {0.0, 0.6, 1.0})
-      CHECK((point(patch, Param<2>(u, v)) - Vec<3>(u, v, (1 - v) * u + v * (1 - u))).norm() < 1e-15);
+      CHECK((point(patch, Param<2>(u, v)) - Vec<3>(u, v, (1 - v) * u + v * (1 - u))).norm() <
+            1e-15);
 }
 
 TEST_CASE("curves of different degree and knots are made alike and stay the same curves") {
@@ -360,7 +383,8 @@ TEST_CASE("curves of different degree and knots are made alike and stay the same
     c.weights[1] = w;
     return c;
   };
-  const std::vector<Curve> before = {raw({0, 0, 1, 1}, 1, 2, 1), raw({0, 0, 0, 1, 3, 3, 3}, 2, 4, 0.5),
+  const std::vector<Curve> before = {raw({0, 0, 1, 1}, 1, 2, 1),
+                                     raw({0, 0, 0, 1, 3, 3, 3}, 2, 4, 0.5),
                                      raw({1, 1, 1, 1, 2, 2, 2, 2}, 3, 4, 2)};
   const auto after = compatible(before);
   for (size_t k = 0; k < 3; ++k) {
@@ -368,12 +392,14 @@ TEST_CASE("curves of different degree and knots are made alike and stay the same
     CHECK(after[k].knots[0] == after[0].knots[0]);
     const auto [lower, upper] = domain(before[k], 0);
     for (double s : {0.0, 0.2, 0.5, 0.9, 1.0})
-      CHECK((point(after[k], Param<1>(s)) - point(before[k], Param<1>(lower + s * (upper - lower)))).norm() < tight);
+      CHECK((point(after[k], Param<1>(s)) - point(before[k], Param<1>(lower + s * (upper - lower))))
+                .norm() < tight);
   }
 }
 
 TEST_CASE("Coons patch: contains its four curves, arcs with weights included") {
-  // A quarter of the unit sphere's equator and others like it: four arcs of 90 degrees on the cylinder x^2 + z^2 = 1.
+  // A quarter of the unit sphere's equator and others like it: four arcs of 90 degrees on the
+  // cylinder x^2 + z^2 = 1.
   const Curve lower = in_space(disc(1)[0].shape, Vec<3>::Zero(), Vec<3>::UnitX(), Vec<3>::UnitZ());
   const Curve upper = mapped(lower, Mat<3>::Identity(), Vec<3>(0, 2, 0));
   Curve left;
@@ -416,5 +442,7 @@ TEST_CASE("any shape: split, raised and placed it is the same solid, joined bit 
   Placement quarter;
   quarter.angle = M_PI / 2;
   CHECK(Vec<3>(quarter.linear() * Vec<3>(1, 2, 3)) == Vec<3>(-2, 1, 3));
-  CHECK((placement.linear() * placement.scale.cwiseInverse().asDiagonal() * placement.axis - placement.axis).norm() < 1e-15);
+  CHECK((placement.linear() * placement.scale.cwiseInverse().asDiagonal() * placement.axis -
+         placement.axis)
+            .norm() < 1e-15);
 }
