@@ -1,4 +1,4 @@
-// sem2d as a user calls it: what it prints, its files and its exit codes.
+// sem2d and sem3d as a user calls them: what they print, their files and their exit codes.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 
@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "dims.h"
 #include "folder.h"
 
 using sem::test::content;
@@ -15,16 +16,61 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// A program, with a scene of its own that runs at once.
+template <int Dim>
+struct Sem;
+template <>
+struct Sem<2> {
+  static constexpr const char* path = SEM2D;
+  static constexpr const char* name = "sem2d";
+  static constexpr const char* scene = "square";
+  static constexpr const char* misspelt = "sqare";
+  static constexpr const char* probe = "free_corner_y_m = ";
+  static constexpr const char* other_gravity = "gravity=[0,-5]";
+  static constexpr const char* schema_word = "inner_radius: ";
+  static constexpr int n_unknowns = 44;
+  static constexpr const char* thrown = "initial.velocity=[-1e7,0]";
+  static constexpr const char* open_part =
+      R"({"degree": 1, "knots": [0, 0, 1, 1], "control_points": [[0, 0], [1, 0.3]]})";
+  static constexpr bool draws = true;
+};
+template <>
+struct Sem<3> {
+  static constexpr const char* path = SEM3D;
+  static constexpr const char* name = "sem3d";
+  static constexpr const char* scene = "cube";
+  static constexpr const char* misspelt = "cbe";
+  static constexpr const char* probe = "free_corner_z_m = ";
+  static constexpr const char* other_gravity = "gravity=[0,0,-5]";
+  static constexpr const char* schema_word = "tube_radius: ";
+  static constexpr int n_unknowns = 63;
+  static constexpr const char* thrown = "initial.velocity=[-1e7,0,0]";
+  static constexpr const char* open_part =
+      R"({"degree_u": 1, "degree_v": 1, "knots_u": [0, 0, 1, 1], "knots_v": [0, 0, 1, 1],
+    "control_points": [[0, 0, 0], [1, 0, 0.3], [0, 1, 0], [1, 1, 0]]})";
+  static constexpr bool draws = false;
+};
+
 struct Outcome {
   int code;  // exit code, -1: ended by a signal
   std::string out, err;
 };
 
-// Calls sem2d in the folder.
+// "@" stands for the program's scene, "%" for its name misspelt.
+template <int Dim>
+std::string named(std::string text) {
+  for (size_t at; (at = text.find('@')) != std::string::npos;) text.replace(at, 1, Sem<Dim>::scene);
+  for (size_t at; (at = text.find('%')) != std::string::npos;)
+    text.replace(at, 1, Sem<Dim>::misspelt);
+  return text;
+}
+
+// Calls the program in the folder.
+template <int Dim>
 Outcome call(const Folder& folder, const std::string& arguments) {
   const std::string out = folder / ".stdout", err = folder / ".stderr";
-  const std::string command = "cd '" + folder.path() + "' && '" + SEM2D + "' " + arguments +
-                              " > '" + out + "' 2> '" + err + "'";
+  const std::string command = "cd '" + folder.path() + "' && '" + Sem<Dim>::path + "' " +
+                              named<Dim>(arguments) + " > '" + out + "' 2> '" + err + "'";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
 }
@@ -32,16 +78,17 @@ Outcome call(const Folder& folder, const std::string& arguments) {
 long n_lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 
 // Exit code 2, nothing on standard output, one line that has all the pieces.
+template <int Dim>
 void check_rejected(const Folder& folder, const std::string& arguments,
                     const std::vector<std::string>& pieces) {
   CAPTURE(arguments);
-  const Outcome outcome = call(folder, arguments);
+  const Outcome outcome = call<Dim>(folder, arguments);
   CAPTURE(outcome.err);
   CHECK(outcome.code == 2);
   CHECK(outcome.out.empty());
   for (const auto& piece : pieces) {
     CAPTURE(piece);
-    CHECK(outcome.err.find(piece) != std::string::npos);
+    CHECK(outcome.err.find(named<Dim>(piece)) != std::string::npos);
   }
 }
 
@@ -49,111 +96,133 @@ const std::string quick = " --set analysis.duration=0.1 --set output.error_estim
 
 }  // namespace
 
-TEST_CASE("sem2d without arguments says in a dozen lines what it can do") {
+TEST_CASE_TEMPLATE("program without arguments says in a dozen lines what it can do", T, D2, D3) {
+  constexpr int Dim = T::value;
   const Folder folder("program_overview");
-  const Outcome outcome = call(folder, "");
+  const Outcome outcome = call<Dim>(folder, "");
   CHECK(outcome.code == 0);
   CHECK(n_lines(outcome.out) <= 12);
   for (const char* word : {"run SCENE", "info SCENE", "scenes", "export NAME", "--set", "--resume"})
     CHECK(outcome.out.find(word) != std::string::npos);
 }
 
-TEST_CASE("sem2d run writes frames, history, summary, final state and checkpoint") {
+TEST_CASE_TEMPLATE("program run writes frames, history, summary, final state and checkpoint", T, D2,
+                   D3) {
+  constexpr int Dim = T::value;
   const Folder folder("program_run");
   const Outcome outcome =
-      call(folder, "run square" + quick + "--set output.width=64 --set output.height=48 --out out");
+      call<Dim>(folder, "run @" + quick + "--set output.width=64 --set output.height=48 --out out");
   CAPTURE(outcome.err);
   CHECK(outcome.code == 0);
   CHECK(outcome.out.find("10 steps to t = 0.1 s") != std::string::npos);
-  CHECK(outcome.out.find("free_corner_y_m = ") != std::string::npos);
+  CHECK(outcome.out.find(Sem<Dim>::probe) != std::string::npos);
   CHECK(n_lines(content(folder / "out/history.csv")) == 1 + 11);
   const Json summary = Json::parse(content(folder / "out/summary.json"));
   CHECK(summary["status"] == "converged");
-  CHECK(summary["sizes"]["unknowns"] == 44);
-  CHECK(summary["sizes"]["frames"] == 4);  // at 0, 1/30, 2/30, 3/30 s
+  CHECK(summary["sizes"]["unknowns"] == Sem<Dim>::n_unknowns);
   CHECK(fs::exists(folder / "out/final_state.json"));
   CHECK(fs::exists(folder / "out/checkpoint.bin"));
+  CHECK(summary["sizes"]["frames"] == (Sem<Dim>::draws ? 4 : 0));  // at 0, 1/30, 2/30, 3/30 s
+  CHECK((outcome.out.find("does not draw") == std::string::npos) == Sem<Dim>::draws);
+}
+
+TEST_CASE("sem2d run: frames are PNG files; a shorter run leaves none of a longer one") {
+  const Folder folder("program_frames");
+  CHECK(call<2>(folder, "run @" + quick + "--set output.width=64 --set output.height=48 --out out")
+            .code == 0);
   for (const char* frame : {"frame_00000.png", "frame_00003.png"})
     CHECK(content(folder / "out/frames/" + frame).starts_with("\x89PNG"));
   CHECK(!fs::exists(folder / "out/frames/frame_00004.png"));
-  // A shorter run into the same folder leaves no frame of the longer one.
-  CHECK(call(folder,
-             "run square --out out --set analysis.duration=0.04 --set output.error_estimate=false")
+  CHECK(call<2>(folder,
+                "run @ --out out --set analysis.duration=0.04 --set output.error_estimate=false")
             .code == 0);
   CHECK(fs::exists(folder / "out/frames/frame_00001.png"));
   CHECK(!fs::exists(folder / "out/frames/frame_00002.png"));
 }
 
-TEST_CASE("sem2d run --no-frames draws nothing; the folder is out/SCENE by default") {
+TEST_CASE_TEMPLATE("program run --no-frames draws nothing; the folder is out/SCENE by default", T,
+                   D2, D3) {
+  constexpr int Dim = T::value;
   const Folder folder("program_no_frames");
-  CHECK(call(folder, "run square --no-frames" + quick).code == 0);
-  CHECK(n_lines(content(folder / "out/square/history.csv")) == 12);
-  CHECK(!fs::exists(folder / "out/square/frames"));
-  CHECK(Json::parse(content(folder / "out/square/summary.json"))["sizes"]["frames"] == 0);
+  CHECK(call<Dim>(folder, "run @ --no-frames" + quick).code == 0);
+  CHECK(n_lines(content(folder / named<Dim>("out/@/history.csv"))) == 12);
+  CHECK(!fs::exists(folder / named<Dim>("out/@/frames")));
+  CHECK(Json::parse(content(folder / named<Dim>("out/@/summary.json")))["sizes"]["frames"] == 0);
 }
 
-TEST_CASE("sem2d run: several overrides may follow one --set, in any place") {
+TEST_CASE_TEMPLATE("program run: several overrides may follow one --set, in any place", T, D2, D3) {
+  constexpr int Dim = T::value;
   const Folder folder("program_set");
-  CHECK(call(folder,
-             "run square --no-frames --out out --set analysis.duration=0.1 "
-             "output.error_estimate=false")
+  CHECK(call<Dim>(folder,
+                  "run @ --no-frames --out out --set analysis.duration=0.1 "
+                  "output.error_estimate=false")
             .code == 0);
   CHECK(n_lines(content(folder / "out/history.csv")) == 12);
-  CHECK(call(folder, "run --set analysis.duration=0.05 --out out --no-frames square").code == 0);
+  CHECK(call<Dim>(folder, "run --set analysis.duration=0.05 --out out --no-frames @").code == 0);
   CHECK(n_lines(content(folder / "out/history.csv")) == 7);
 }
 
-TEST_CASE("sem2d run twice gives the same bits") {
+TEST_CASE_TEMPLATE("program run twice gives the same bits", T, D2, D3) {
+  constexpr int Dim = T::value;
   const Folder folder("program_twice");
-  CHECK(call(folder, "run square --no-frames --out a" + quick).code == 0);
-  CHECK(call(folder, "run square --no-frames --out b --set method.threads=2" + quick).code == 0);
+  CHECK(call<Dim>(folder, "run @ --no-frames --out a" + quick).code == 0);
+  CHECK(call<Dim>(folder, "run @ --no-frames --out b --set method.threads=2" + quick).code == 0);
   for (const std::string file : {"history.csv", "final_state.json"})
     CHECK(content(folder / "a/" + file) == content(folder / "b/" + file));
 }
 
-TEST_CASE("sem2d run --resume ends where a run without a break ends") {
+TEST_CASE_TEMPLATE("program run --resume ends where a run without a break ends", T, D2, D3) {
+  constexpr int Dim = T::value;
   const Folder folder("program_resume");
   const std::string common = " --no-frames --set output.error_estimate=false ";
-  CHECK(call(folder, "run square --out whole --set analysis.duration=0.2" + common).code == 0);
-  CHECK(call(folder, "run square --out parts --set analysis.duration=0.1" + common).code == 0);
-  CHECK(call(folder, "run square --out parts --resume --set analysis.duration=0.2" + common).code ==
+  CHECK(call<Dim>(folder, "run @ --out whole --set analysis.duration=0.2" + common).code == 0);
+  CHECK(call<Dim>(folder, "run @ --out parts --set analysis.duration=0.1" + common).code == 0);
+  CHECK(call<Dim>(folder, "run @ --out parts --resume --set analysis.duration=0.2" + common).code ==
         0);
   for (const std::string file : {"history.csv", "final_state.json", "checkpoint.bin"})
     CHECK(content(folder / "whole/" + file) == content(folder / "parts/" + file));
-  check_rejected(folder, "run square --out parts --resume --set gravity=[0,-5]" + common,
-                 {"parts/checkpoint.bin", "other settings"});
-  check_rejected(folder, "run square --out none --resume" + common,
-                 {"none/checkpoint.bin", "no readable file"});
+  check_rejected<Dim>(
+      folder, "run @ --out parts --resume --set " + std::string(Sem<Dim>::other_gravity) + common,
+      {"parts/checkpoint.bin", "other settings"});
+  check_rejected<Dim>(folder, "run @ --out none --resume" + common,
+                      {"none/checkpoint.bin", "no readable file"});
   sem::test::write(folder / "parts/checkpoint.bin",
                    content(folder / "whole/checkpoint.bin").substr(0, 500));
-  check_rejected(folder, "run square --out parts --resume" + common,
-                 {"parts/checkpoint.bin", "damaged"});
+  check_rejected<Dim>(folder, "run @ --out parts --resume" + common,
+                      {"parts/checkpoint.bin", "damaged"});
 }
 
-TEST_CASE("sem2d export prints a scene that runs to the same history") {
+TEST_CASE_TEMPLATE("program export prints a scene that runs to the same history", T, D2, D3) {
+  constexpr int Dim = T::value;
   const Folder folder("program_export");
-  const Outcome exported = call(folder, "export square");
+  const Outcome exported = call<Dim>(folder, "export @");
   CHECK(exported.code == 0);
   fs::create_directory(folder / "my scenes");
   sem::test::write(folder / "my scenes/mine.json", exported.out);
-  CHECK(call(folder, "run 'my scenes/mine.json' --no-frames" + quick).code == 0);
-  CHECK(call(folder, "run square --no-frames" + quick).code == 0);
-  CHECK(content(folder / "out/mine/history.csv") == content(folder / "out/square/history.csv"));
-  check_rejected(folder, "export sqare", {"NAME", "'sqare'", "'square' (did you mean that?)"});
+  CHECK(call<Dim>(folder, "run 'my scenes/mine.json' --no-frames" + quick).code == 0);
+  CHECK(call<Dim>(folder, "run @ --no-frames" + quick).code == 0);
+  CHECK(content(folder / "out/mine/history.csv") ==
+        content(folder / named<Dim>("out/@/history.csv")));
+  check_rejected<Dim>(folder, "export %", {"NAME", "'%'", "'@' (did you mean that?)"});
 }
 
-TEST_CASE("sem2d scenes lists a line for each; each has info") {
+TEST_CASE_TEMPLATE(
+    "program scenes lists a line for each; each of the plane and the small one in space have info",
+    T, D2, D3) {
+  constexpr int Dim = T::value;
   const Folder folder("program_scenes");
-  const Outcome scenes = call(folder, "scenes");
+  const Outcome scenes = call<Dim>(folder, "scenes");
   CHECK(scenes.code == 0);
-  CHECK(("\n" + scenes.out).find("\nsquare ") != std::string::npos);
-  CHECK(n_lines(scenes.out) >= 9);
+  CHECK(("\n" + scenes.out).find(named<Dim>("\n@ ")) != std::string::npos);
+  CHECK(n_lines(scenes.out) >= 7);
   std::istringstream lines(scenes.out);
   for (std::string line; std::getline(lines, line);) {
     CHECK(line.size() < 120);
     const std::string name = line.substr(0, line.find(' '));
     CAPTURE(name);
-    const Outcome info = call(folder, "info " + name + " --json");
+    if (Dim == 3 && name != Sem<Dim>::scene)
+      continue;  // takes minutes for all; test_shapes reads them
+    const Outcome info = call<Dim>(folder, "info " + name + " --json");
     CHECK(info.code == 0);
     const Json json = Json::parse(info.out);
     CHECK(json["name"] == name);
@@ -162,83 +231,90 @@ TEST_CASE("sem2d scenes lists a line for each; each has info") {
   }
 }
 
-TEST_CASE("sem2d info for people, schema, version and help") {
+TEST_CASE_TEMPLATE("program info for people, schema, version and help", T, D2, D3) {
+  constexpr int Dim = T::value;
   const Folder folder("program_info");
-  const Outcome info = call(folder, "info square");
+  const Outcome info = call<Dim>(folder, "info @");
   CHECK(info.code == 0);
-  CHECK(info.out.find("unknowns: 44\n") != std::string::npos);
+  CHECK(info.out.find("unknowns: " + std::to_string(Sem<Dim>::n_unknowns) + "\n") !=
+        std::string::npos);
   CHECK(info.out.find("checkpoint_interval: ") != std::string::npos);  // a default
-  const Outcome schema = call(folder, "schema");
+  const Outcome schema = call<Dim>(folder, "schema");
   CHECK(schema.code == 0);
-  for (const char* key : {"solids: ", "youngs_modulus: ", "shape: ", "inner_radius: ", "Pa"})
+  for (const char* key : {"solids: ", "youngs_modulus: ", "shape: ", Sem<Dim>::schema_word, "Pa"})
     CHECK(schema.out.find(key) != std::string::npos);
-  CHECK(call(folder, "--version").out.starts_with("sem2d "));
-  CHECK(call(folder, "--help").code == 0);
-  CHECK(call(folder, "run --help").code == 0);
+  CHECK(call<Dim>(folder, "--version").out.starts_with(Sem<Dim>::name + std::string(" ")));
+  CHECK(call<Dim>(folder, "--help").code == 0);
+  CHECK(call<Dim>(folder, "run --help").code == 0);
   CHECK(!fs::exists(folder / "out"));
 }
 
-TEST_CASE("sem2d: bad calls and bad input exit with 2 and leave no files") {
+TEST_CASE_TEMPLATE("program: bad calls and bad input exit with 2 and leave no files", T, D2, D3) {
+  constexpr int Dim = T::value;
   const Folder folder("program_bad");
-  check_rejected(folder, "walk", {"COMMAND", "'walk'"});
-  check_rejected(folder, "inof square", {"COMMAND", "'inof'", "run, info"});
-  check_rejected(folder, "run", {"SCENE"});
-  check_rejected(folder, "run square --fast", {"--fast"});
-  check_rejected(folder, "run sqare", {"SCENE", "'sqare'", "'square' (did you mean that?)"});
-  check_rejected(folder, "run no/such/scene.json", {"'no/such/scene.json'", "a JSON file"});
-  check_rejected(folder, "run .", {"'.'"});
-  check_rejected(folder, "run ''", {"''"});
-  check_rejected(folder, "run " + std::string(5000, 'x'), {"neither a file nor"});
-  check_rejected(folder, "run square nonsense", {"--set", "nonsense", "key=value"});
-  check_rejected(folder, "run square --set analysis.time_step=0",
-                 {"square", "analysis.time_step", "found 0"});
-  check_rejected(folder, "run square --set solids[0].material.poisson_ratio=0.5",
-                 {"poisson_ratio", "0.5"});
-  check_rejected(folder, "run square --set output.width=0",
-                 {"output.width", "found 0", "16 to 8192"});
-  check_rejected(folder,
-                 "run square --set method.quadrature.rays=100000 method.quadrature.points=10000",
-                 {"at most 1e+07"});
-  check_rejected(folder, "run square --set pins=[{}]", {"pins", "leave something free"});
-  check_rejected(folder, "info square --set gravty=[0,0]",
-                 {"gravty", "'gravity' (did you mean that?)"});
+  check_rejected<Dim>(folder, "walk", {"COMMAND", "'walk'"});
+  check_rejected<Dim>(folder, "inof @", {"COMMAND", "'inof'", "run, info"});
+  check_rejected<Dim>(folder, "run", {"SCENE"});
+  check_rejected<Dim>(folder, "run @ --fast", {"--fast"});
+  check_rejected<Dim>(folder, "run %", {"SCENE", "'%'", "'@' (did you mean that?)"});
+  check_rejected<Dim>(folder, "run no/such/scene.json", {"'no/such/scene.json'", "a JSON file"});
+  check_rejected<Dim>(folder, "run .", {"'.'"});
+  check_rejected<Dim>(folder, "run ''", {"''"});
+  check_rejected<Dim>(folder, "run " + std::string(5000, 'x'), {"neither a file nor"});
+  check_rejected<Dim>(folder, "run @ nonsense", {"--set", "nonsense", "key=value"});
+  check_rejected<Dim>(folder, "run @ --set analysis.time_step=0",
+                      {"@", "analysis.time_step", "found 0"});
+  check_rejected<Dim>(folder, "run @ --set solids[0].material.poisson_ratio=0.5",
+                      {"poisson_ratio", "0.5"});
+  check_rejected<Dim>(folder, "run @ --set output.width=0",
+                      {"output.width", "found 0", "16 to 8192"});
+  check_rejected<Dim>(folder,
+                      "run @ --set method.quadrature.rays=100000 method.quadrature.points=10000",
+                      {"at most 1e+07"});
+  check_rejected<Dim>(folder, "run @ --set pins=[{}]", {"pins", "leave something free"});
+  check_rejected<Dim>(folder, "info @ --set gravty=[0,0]",
+                      {"gravty", "'gravity' (did you mean that?)"});
   sem::test::write(folder / "broken.json", "{ \"solids\": [ }");
-  check_rejected(folder, "run broken.json", {"broken.json", "line 1, column 15"});
-  sem::test::write(folder / "open.json", R"({"solids": [{"parts": [
-    {"degree": 1, "knots": [0, 0, 1, 1], "control_points": [[0, 0], [1, 0.3]]}]}]})");
-  check_rejected(folder, "run open.json", {"open.json", "no interior"});
+  check_rejected<Dim>(folder, "run broken.json", {"broken.json", "line 1, column 15"});
+  sem::test::write(folder / "open.json",
+                   std::string(R"({"solids": [{"parts": [)") + Sem<Dim>::open_part + "]}]}");
+  check_rejected<Dim>(folder, "run open.json", {"open.json", "no interior"});
   sem::test::write(folder / "empty.json", "");
-  check_rejected(folder, "run empty.json", {"empty.json", "line 1"});
+  check_rejected<Dim>(folder, "run empty.json", {"empty.json", "line 1"});
   CHECK(!fs::exists(folder / "out"));
 }
 
-TEST_CASE("sem2d: an output folder that cannot be one") {
+TEST_CASE_TEMPLATE("program: an output folder that cannot be one", T, D2, D3) {
+  constexpr int Dim = T::value;
   const Folder folder("program_out");
   sem::test::write(folder / "file", "x");
-  check_rejected(folder, "run square --out file" + quick, {"--out", "'file'", "a writable folder"});
-  check_rejected(folder, "run square --out file/sub" + quick, {"--out", "'file/sub'"});
-  check_rejected(folder, "run square --out /proc/sem2d" + quick, {"--out", "'/proc/sem2d'"});
+  check_rejected<Dim>(folder, "run @ --out file" + quick, {"--out", "'file'", "a writable folder"});
+  check_rejected<Dim>(folder, "run @ --out file/sub" + quick, {"--out", "'file/sub'"});
+  check_rejected<Dim>(folder, "run @ --out /proc/sem2d" + quick, {"--out", "'/proc/sem2d'"});
   CHECK(content(folder / "file") == "x");
+  if (!Sem<Dim>::draws) return;
   fs::create_directory(folder / "taken");
   sem::test::write(folder / "taken/frames", "x");
-  check_rejected(folder, "run square --out taken" + quick, {"taken/frames"});
+  check_rejected<Dim>(folder, "run @ --out taken" + quick, {"taken/frames"});
 }
 
-TEST_CASE("sem2d: names of scenes do not leave the output folder") {
+TEST_CASE_TEMPLATE("program: names of scenes do not leave the output folder", T, D2, D3) {
+  constexpr int Dim = T::value;
   const Folder folder("program_names");
-  const std::string text = call(folder, "export square").out;
+  const std::string text = call<Dim>(folder, "export @").out;
   sem::test::write(folder / "a.b.json", text);
-  CHECK(call(folder, "run a.b.json --no-frames --set name=../../evil/\xFF" + quick).code == 0);
+  CHECK(call<Dim>(folder, "run a.b.json --no-frames --set name=../../evil/\xFF" + quick).code == 0);
   CHECK(fs::exists(folder / "out/a.b/summary.json"));
   sem::test::write(folder / "\xE4.json", text);  // a file name that is no UTF-8
-  CHECK(call(folder, "run \xE4.json --no-frames --set name=" + quick).code == 0);
+  CHECK(call<Dim>(folder, "run \xE4.json --no-frames --set name=" + quick).code == 0);
 }
 
-TEST_CASE("sem2d: a run that fails exits with 1 and still writes its files") {
+TEST_CASE_TEMPLATE("program: a run that fails exits with 1 and still writes its files", T, D2, D3) {
+  constexpr int Dim = T::value;
   const Folder folder("program_fails");
   const Outcome outcome =
-      call(folder,
-           "run square --no-frames --out out --set initial.velocity=[-1e7,0] analysis.time_step=1");
+      call<Dim>(folder, "run @ --no-frames --out out --set " + std::string(Sem<Dim>::thrown) +
+                            " analysis.time_step=1");
   CAPTURE(outcome.out);
   CHECK(outcome.code == 1);
   CHECK(outcome.out.find("stopped: ") != std::string::npos);

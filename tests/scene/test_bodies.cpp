@@ -190,3 +190,61 @@ TEST_CASE_TEMPLATE("accuracy report: the same numbers for a model a million size
   CHECK(far.volume_error == doctest::Approx(near.volume_error).epsilon(1e-6));
   CHECK(std::abs(far.second_moment_error - near.second_moment_error) < 1e-8);
 }
+
+TEST_CASE_TEMPLATE("static: a body turned by its pin sags as the one that is not turned does under turned gravity", T, D2, D3) {
+  constexpr int Dim = T::value;
+  const auto solved = [](const Scene<Dim>& scene) {
+    const auto model = build_model(scene, "");
+    State state = model->initial;
+    CHECK(equilibrium(model->system, scene.analysis, model->target, state, model->path).status == Status::converged);
+    return Points<Dim>(evaluate(model->discretization.interior, state.z));
+  };
+  for (const double angle : {1.2, 2 * M_PI + 0.5}) {
+      CAPTURE(angle);
+      Mat<Dim> R = Mat<Dim>::Identity();
+      R(0, 0) = R(1, 1) = std::cos(angle);
+      R(1, 0) = std::sin(angle);
+      R(0, 1) = -R(1, 0);
+      auto scene = test::box_scene<Dim>(MaterialModel::neo_log);
+      scene.analysis.kind = AnalysisKind::statics;
+      scene.analysis.load_steps = angle > 2 ? 24 : 4;
+      scene.gravity[1] = -5;
+      auto pin = test::face_pin<Dim>(0);
+      pin.rotation[DimTraits<Dim>::n_rotations - 1] = angle;  // about z
+      pin.center = Vec<Dim>::Constant(0.25);
+      pin.displacement[0] = 0.3;
+      scene.pins = {pin};
+      const Points<Dim> turned = solved(scene);
+      scene.gravity = R.transpose() * scene.gravity;
+      scene.pins = {test::face_pin<Dim>(0)};
+      const Points<Dim> still = solved(scene);
+      const Points<Dim> expected = (R * (still.colwise() - pin.center)).colwise() + (pin.center + pin.displacement);
+      CHECK((turned - expected).cwiseAbs().maxCoeff() < 1e-6);
+    }
+}
+
+TEST_CASE_TEMPLATE("dynamic: a load with an amplitude moves a free body as its sum over the steps says", T, D2, D3) {
+  constexpr int Dim = T::value;
+  for (const Integrator integrator : {Integrator::linearly_implicit_euler, Integrator::implicit_midpoint}) {
+    auto scene = test::box_scene<Dim>(MaterialModel::linear);
+    scene.analysis.integrator = integrator;
+    scene.analysis.duration = 0.37;
+    BodyLoad<Dim> wind{"", Vec<Dim>::Unit(0) * 300, 0, {1.5, 0.2}};
+    scene.body_loads.push_back(wind);
+    scene.gravity[1] = -10;
+    const auto model = build_model(scene, "");
+    CHECK(model->system.load.sum() == doctest::Approx(300 - 1000).epsilon(1e-12));  // the mean
+    State state = model->initial;
+    march(model->system, scene.analysis, state, [](const State&, const StepInfo&) {}, model->set_load());
+    const bool middle = integrator == Integrator::implicit_midpoint;
+    double v = 0, x = 0;
+    for (int k = 0; k < 37; ++k) {
+      const double t = (k + (middle ? 0.5 : 1)) * 0.01, before = v;
+      v += 0.01 * 3 * (1 + 1.5 * std::sin(2 * M_PI * t / 0.2));
+      x += 0.01 * (middle ? (before + v) / 2 : v);
+    }
+    const auto& d = model->discretization;
+    const Points<Dim> moved = evaluate(d.interior, state.z) - d.quadrature.position;
+    CHECK((moved * d.quadrature.weight)[0] == doctest::Approx(x).epsilon(1e-10));
+  }
+}

@@ -5,6 +5,7 @@
 #include "dims.h"
 #include "sem/base/error.h"
 #include "sem/nurbs/kernels.h"
+#include "sem/base/rotation.h"
 #include "sem/scene/accuracy.h"
 #include "sem/scene/analysis.h"
 #include "sem/scene/monitor.h"
@@ -297,4 +298,34 @@ TEST_CASE("resolved rules refuse moment fitting and compression, which know no k
   Scene<2> scene = condensed_box<2>(MaterialModel::linear);
   scene.method.interior_rule.compress = 4;
   CHECK_THROWS_AS(build_model(scene, ""), InputError);
+}
+
+TEST_CASE("condensed: a body turned by its pin sags as the one that is not turned does under turned gravity") {
+  const auto solved = [](const Scene<2>& scene) {
+    const auto model = build_model(scene, "");
+    State state = model->initial;
+    CHECK(equilibrium(model->system, scene.analysis, model->target, state, model->path).status == Status::converged);
+    return Points<2>(evaluate(model->discretization.interior, state.z));
+  };
+  const double angle = 2 * M_PI + 1.2;
+  const Mat<2> R = rotation<2>(Vec<1>(angle));
+  auto scene = condensed_box<2>(MaterialModel::neo_log, 3);
+  scene.analysis.load_steps = 24;
+  scene.gravity = {0, -5};
+  auto pin = test::face_pin<2>(0);
+  pin.rotation[0] = angle;
+  pin.center = {0.25, 0.25};
+  pin.displacement = {0.3, 0};
+  scene.pins = {pin};
+  const Points<2> turned = solved(scene);
+  scene.gravity = R.transpose() * scene.gravity;
+  scene.pins = {test::face_pin<2>(0)};
+  const Points<2> still = solved(scene);
+  const Points<2> expected = (R * (still.colwise() - pin.center)).colwise() + (pin.center + pin.displacement);
+  // Not to rounding: the clamps' penalty has the normal of the rest shape in it (clamps.h).
+  const double sag = (turned - ((R * (build_model(scene, "")->discretization.quadrature.position.colwise() - pin.center)).colwise() +
+                                (pin.center + pin.displacement))).cwiseAbs().maxCoeff();
+  CAPTURE(sag);
+  CHECK(sag > 0.05);
+  CHECK((turned - expected).cwiseAbs().maxCoeff() < 0.01 * sag);
 }

@@ -20,7 +20,6 @@ struct HeldPoint {
   Mat<Dim> F;
   double weight, penalty;
   const Material& material;
-  int pin_column;
   const double* pressure;  // null: none of its own
   int index;               // among the held points
 };
@@ -33,20 +32,19 @@ void visit_points(const ClampedPoints<Dim>& points, const VectorXd& z, const dou
     for (size_t row = 0; row < block.points.size(); ++row) {
       const int s = block.points[row];
       Vec<Dim> x = Vec<Dim>::Zero();
-      for (size_t j = 0; j < block.columns.size(); ++j) x += block.value(row, j) * nodes.col(block.columns[j]);
+      for (size_t j = 0; j < block.columns.size(); ++j)
+        x += block.value(row, j) * nodes.col(block.columns[j]);
       const HeldPoint<Dim> point{block,
-                           int(row),
-                           points.held.col(s).cwiseProduct(x - points.position.col(s) -
-                                                           nodes.col(points.pin_column[s])),
-                           points.normal.col(s),
-                           points.held.col(s),
-                           deformation_gradient<Dim>(block, int(row), nodes),
-                           points.weight[s],
-                           points.penalty[s],
-                           points.material[s],
-                           points.pin_column[s],
-                           pressure && !std::isnan(pressure[s]) ? pressure + s : nullptr,
-                           s};
+                                 int(row),
+                                 points.held.col(s).cwiseProduct(x - points.position.col(s)),
+                                 points.normal.col(s),
+                                 points.held.col(s),
+                                 deformation_gradient<Dim>(block, int(row), nodes),
+                                 points.weight[s],
+                                 points.penalty[s],
+                                 points.material[s],
+                                 pressure && !std::isnan(pressure[s]) ? pressure + s : nullptr,
+                                 s};
       visit(point);
     }
   }
@@ -83,7 +81,7 @@ template <int Dim>
 std::vector<int> coupled_columns(const HeldControl<Dim>& spring) {
   std::vector<int> columns;
   for (int c = 0; c < spring.output.size(); ++c)
-    if (spring.output[c] != 0 || c == spring.pin_column) columns.push_back(c);
+    if (spring.output[c] != 0) columns.push_back(c);
   return columns;
 }
 
@@ -106,8 +104,7 @@ double Clamps<Dim>::energy(const VectorXd& z, const double* pressure) const {
   });
   for (const auto& spring : controls_) {
     const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, spring.output.size());
-    const Vec<Dim> r =
-        nodes * spring.output.transpose() - spring.rest - nodes.col(spring.pin_column);
+    const Vec<Dim> r = nodes * spring.output.transpose() - spring.rest;
     sum += spring.stiffness / 2 * spring.held.cwiseProduct(r).squaredNorm();
   }
   return sum;
@@ -116,8 +113,9 @@ double Clamps<Dim>::energy(const VectorXd& z, const double* pressure) const {
 template <int Dim>
 void Clamps<Dim>::add_gradient(const VectorXd& z, VectorXd& g, const double* pressure) const {
   visit_points<Dim>(points_, z, pressure, [&](const HeldPoint<Dim>& p) {
-    // dV = force . (dx - dd) - Q : dF with Q = C : (r (x) N).
-    const Vec<Dim> traction = p.held.cwiseProduct(first_piola<Dim>(p.material, p.F, p.pressure) * p.normal);
+    // dV = force . d(x - d) - Q : dF with Q = C : (r (x) N).
+    const Vec<Dim> traction =
+        p.held.cwiseProduct(first_piola<Dim>(p.material, p.F, p.pressure) * p.normal);
     const Vec<Dim> force = p.weight * (penalty_matrix(p) * p.residual - traction);
     const Eigen::Matrix<double, Dim * Dim, 1> q =
         stress_derivative<Dim>(p.material, p.F, p.pressure) * work_direction(p);
@@ -127,21 +125,18 @@ void Clamps<Dim>::add_gradient(const VectorXd& z, VectorXd& g, const double* pre
       for (int b = 0; b < Dim; ++b) f -= p.block.gradient[b](p.row, j) * Q.col(b);
       g.template segment<Dim>(Dim * p.block.columns[j]) += f;
     }
-    g.template segment<Dim>(Dim * p.pin_column) -= force;
   });
   for (const auto& spring : controls_) {
     const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, spring.output.size());
     Eigen::Map<Points<Dim>> out(g.data(), Dim, spring.output.size());
-    const Vec<Dim> r =
-        nodes * spring.output.transpose() - spring.rest - nodes.col(spring.pin_column);
-    const Vec<Dim> force = spring.stiffness * spring.held.cwiseProduct(r);
-    out += force * spring.output;
-    out.col(spring.pin_column) -= force;
+    const Vec<Dim> r = nodes * spring.output.transpose() - spring.rest;
+    out += spring.stiffness * spring.held.cwiseProduct(r) * spring.output;
   }
 }
 
 template <int Dim>
-void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, SymmetricMatrix& H, const double* pressure) const {
+void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, SymmetricMatrix& H,
+                              const double* pressure) const {
   MatrixXd sum;
   visit_points<Dim>(points_, z, pressure, [&](const HeldPoint<Dim>& p) {
     const auto& block = p.block;
@@ -150,38 +145,32 @@ void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, SymmetricMatr
     const StressDerivative<Dim> C = stress_derivative<Dim>(p.material, p.F, p.pressure);
     const StressDerivative<Dim> D =
         approximate ? StressDerivative<Dim>::Zero().eval() : third_derivative(p);
-    // Traction on held components by the column j: held dP N = T_j dz_j. The last one is the pin's
-    // displacement.
-    std::vector<Mat<Dim>> T(n + 1, Mat<Dim>::Zero());
-    std::vector<double> value(n + 1, -1);
-    std::vector<int> column(n + 1, p.pin_column);
-    for (int j = 0; j < n; ++j) {
-      value[j] = block.value(p.row, j);
-      column[j] = block.columns[j];
+    // Traction on held components by the column j: held dP N = T_j dz_j.
+    std::vector<Mat<Dim>> T(n, Mat<Dim>::Zero());
+    for (int j = 0; j < n; ++j)
       for (int a = 0; a < Dim; ++a)
         for (int c = 0; c < Dim; ++c)
           for (int b = 0; b < Dim; ++b)
             for (int d = 0; d < Dim; ++d)
               T[j](a, c) += p.held[a] * p.normal[b] * C(a + Dim * b, c + Dim * d) *
                             block.gradient[d](p.row, j);
-    }
-    sum.resize(Dim * (n + 1), Dim * (n + 1));
-    for (int j = 0; j <= n; ++j)
-      for (int m = 0; m <= n; ++m) {
-        Mat<Dim> local = value[m] * value[j] * K - value[m] * T[j] - value[j] * T[m].transpose();
-        if (!approximate && m < n && j < n)
+    sum.resize(Dim * n, Dim * n);
+    for (int j = 0; j < n; ++j)
+      for (int m = 0; m < n; ++m) {
+        const double value_j = block.value(p.row, j), value_m = block.value(p.row, m);
+        Mat<Dim> local = value_m * value_j * K - value_m * T[j] - value_j * T[m].transpose();
+        if (!approximate)
           for (int b = 0; b < Dim; ++b)
             for (int d = 0; d < Dim; ++d)
               local -= block.gradient[b](p.row, m) * block.gradient[d](p.row, j) *
                        D.template block<Dim, Dim>(Dim * b, Dim * d);
         sum.template block<Dim, Dim>(Dim * m, Dim * j) = p.weight * local;
       }
-    H.add(column, sum);
+    H.add(block.columns, sum);
   });
   for (const auto& spring : controls_) {
     const std::vector<int> columns = coupled_columns(spring);
-    Eigen::RowVectorXd row = spring.output;
-    row[spring.pin_column] -= 1;
+    const Eigen::RowVectorXd& row = spring.output;
     const int n = int(columns.size());
     sum.setZero(Dim * n, Dim * n);
     for (int a = 0; a < Dim; ++a)
@@ -195,11 +184,7 @@ void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, SymmetricMatr
 template <int Dim>
 std::vector<std::vector<int>> Clamps<Dim>::couplings() const {
   std::vector<std::vector<int>> cliques;
-  for (const auto& block : points_.map.blocks)
-    for (const int s : block.points) {
-      cliques.push_back(block.columns);
-      cliques.back().push_back(points_.pin_column[s]);
-    }
+  for (const auto& block : points_.map.blocks) cliques.push_back(block.columns);
   for (const auto& spring : controls_) cliques.push_back(coupled_columns(spring));
   std::sort(cliques.begin(), cliques.end());
   cliques.erase(std::unique(cliques.begin(), cliques.end()), cliques.end());
@@ -217,21 +202,19 @@ VectorXd Clamps<Dim>::volume_work(const VectorXd& z) const {
 }
 
 template <int Dim>
-void Clamps<Dim>::add_volume_work_derivative(const VectorXd& z, const MatrixXd& Q, MatrixXd& G) const {
+void Clamps<Dim>::add_volume_work_derivative(const VectorXd& z, const MatrixXd& Q,
+                                             MatrixXd& G) const {
   visit_points<Dim>(points_, z, nullptr, [&](const HeldPoint<Dim>& p) {
     const auto g = volume_measure<Dim>(p.material.model, p.F);
     const Vec<Dim> by_residual = -p.weight * p.held.cwiseProduct(g.first * p.normal);
     const Eigen::Matrix<double, Dim * Dim, 1> q = -p.weight * (g.second * work_direction(p));
     const Eigen::Map<const Mat<Dim>> by_F(q.data());
-    const auto add = [&](int column, const Vec<Dim>& derivative) {
-      for (int a = 0; a < Dim; ++a) G.col(Dim * column + a) += derivative[a] * Q.row(p.index).transpose();
-    };
     for (size_t j = 0; j < p.block.columns.size(); ++j) {
       Vec<Dim> derivative = p.block.value(p.row, j) * by_residual;
       for (int b = 0; b < Dim; ++b) derivative += p.block.gradient[b](p.row, j) * by_F.col(b);
-      add(p.block.columns[j], derivative);
+      for (int a = 0; a < Dim; ++a)
+        G.col(Dim * p.block.columns[j] + a) += derivative[a] * Q.row(p.index).transpose();
     }
-    add(p.pin_column, -by_residual);
   });
 }
 

@@ -165,6 +165,8 @@ FreeCoefficients<Dim> free_coefficients(const Points<Dim>& position, const Vecto
       blended_map(position, weights, free.origins, free.projection, n_candidates, true),
       volume, size);
   std::vector<int> chosen = independent_rows(G, Dim + 1, tolerance);
+  if (int(chosen.size()) <= Dim)  // not even 1 and X: only where something is not a number
+    throw InputError("", "method.weights", "weights or gradients of weights that are not finite", "finite ones: a shape whose patches are less degenerate there");
   std::sort(chosen.begin(), chosen.end());
   std::fill(column_of.begin(), column_of.end(), -1);
   for (int c = Dim + 1; c < int(chosen.size()); ++c) column_of[chosen[c] - (Dim + 1)] = c;

@@ -20,20 +20,35 @@ class Stopwatch {
 
 }  // namespace
 
+Eigen::VectorXd LoadInTime::mean() const {
+  Eigen::VectorXd f = constant;
+  for (const auto& load : periodic) f += load.force;
+  return f;
+}
+
+Eigen::VectorXd LoadInTime::at(double time) const {
+  Eigen::VectorXd f = constant;
+  for (const auto& [force, oscillation] : periodic)
+    f += (1 + oscillation.amplitude * std::sin(2 * M_PI * time / oscillation.period)) * force;
+  return f;
+}
+
 long n_steps(const Analysis& analysis) {
   return std::lround(analysis.duration / analysis.time_step);
 }
 
 AnalysisReport march(const System& system, const Analysis& analysis, State& state,
-                     const StepCallback& on_step) {
+                     const StepCallback& on_step, const std::function<void(double)>& set_load) {
   AnalysisReport report;
   const Stopwatch preparing;
   TimeStepper stepper(system, analysis.time_step, analysis.integrator);
   report.seconds = preparing.seconds();
   Eigen::VectorXd before, acceleration;
   const long last = n_steps(analysis);
+  const double share = analysis.integrator == Integrator::implicit_midpoint ? 0.5 : 1;
   while (state.step < last) {
     before = state.v;
+    if (set_load) set_load((double(state.step) + share) * analysis.time_step);
     const Stopwatch watch;
     const StepReport step = stepper.step(state);
     report.seconds += watch.seconds();
@@ -53,9 +68,10 @@ AnalysisReport march(const System& system, const Analysis& analysis, State& stat
 }
 
 AnalysisReport equilibrium(const System& system, const Analysis& analysis,
-                           const Eigen::VectorXd& target, State& state) {
+                           const Eigen::VectorXd& target, State& state, const PinPath& path) {
   StaticOptions options;
   options.target = target;
+  options.path = path;
   options.n_load_steps = analysis.load_steps;
   options.max_iterations = analysis.max_iterations;
   options.tolerance = analysis.tolerance;

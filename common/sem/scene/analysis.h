@@ -11,6 +11,19 @@
 
 namespace sem {
 
+/// f(t) = constant + sum_k (1 + amplitude_k sin(2 pi t / period_k)) force_k, N.
+struct LoadInTime {
+  struct Periodic {
+    Eigen::VectorXd force;
+    Oscillation oscillation;
+  };
+  Eigen::VectorXd constant;
+  std::vector<Periodic> periodic;
+
+  Eigen::VectorXd mean() const;  ///< without amplitudes
+  Eigen::VectorXd at(double time) const;
+};
+
 /// How an analysis went.
 struct AnalysisReport {
   Status status = Status::converged;
@@ -36,12 +49,13 @@ using StepCallback = std::function<void(const State&, const StepInfo&)>;
 long n_steps(const Analysis& analysis);
 
 /// Integrates from state.step to the end, calling back after every step. Stops
-/// with the status and the last good state if a step fails for good.
+/// with the status and the last good state if a step fails for good. `set_load`, if any, is called before
+/// every step with the time, s, at which its forces act (its end, or its middle): it may change system.load.
 AnalysisReport march(const System& system, const Analysis& analysis, State& state,
-                     const StepCallback& on_step);
+                     const StepCallback& on_step, const std::function<void(double)>& set_load = {});
 
-/// Static equilibrium with the pins led to `target`.
+/// Static equilibrium with the pins led to `target`, straight or along `path` (statics.h).
 AnalysisReport equilibrium(const System& system, const Analysis& analysis,
-                           const Eigen::VectorXd& target, State& state);
+                           const Eigen::VectorXd& target, State& state, const PinPath& path = {});
 
 }  // namespace sem

@@ -29,14 +29,14 @@ Rows values_of(const Scene<Dim>& scene, const std::string& file, long stride) {
     return {{modes.omega.begin(), modes.omega.end()}};
   }
   if (scene.analysis.kind == AnalysisKind::statics) {
-    const auto report = equilibrium(model->system, scene.analysis, model->target, state);
+    const auto report = equilibrium(model->system, scene.analysis, model->target, state, model->path);
     if (report.status != Status::converged) fail(report.status);
     return {monitor.probes(state, {})};
   }
   Rows rows;
   const auto report = march(model->system, scene.analysis, state, [&](const State& now, const StepInfo& info) {
     if (now.step % stride == 0) rows.push_back(monitor.probes(now, info.acceleration));
-  });
+  }, model->set_load());
   if (report.status != Status::converged) fail(report.status);
   return rows;
 }

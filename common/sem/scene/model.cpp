@@ -8,6 +8,7 @@
 #include <set>
 
 #include "sem/base/error.h"
+#include "sem/base/rotation.h"
 #include "sem/mechanics/loads.h"
 #include "sem/mechanics/quadratic_forms.h"
 #include "sem/method/material_weights.h"
@@ -20,9 +21,13 @@ using Eigen::VectorXd;
 
 bool matches_part(const std::string& selected, const std::string& solid, const std::string& part) {
   // A half "top.2~1" answers to the name of the whole, "top.2".
-  const std::string whole = part.substr(0, part.find('~')), group = whole.substr(0, whole.find('.'));
-  return selected == part || selected == whole || selected == solid + "/" + whole || selected == group || selected == solid + "/" + part ||
-         selected == solid + "/" + group;
+  const std::string whole = part.substr(0, part.find('~'));
+  const auto is_group = [&](const std::string& name) {
+    return whole.starts_with(name) && (whole.size() == name.size() || whole[name.size()] == '.');
+  };
+  const bool in_solid = selected.starts_with(solid + "/");
+  const std::string name = in_solid ? selected.substr(solid.size() + 1) : selected;
+  return name == part || is_group(name) || selected == part || is_group(selected);
 }
 
 bool has_own_pressure(const MethodOptions& options, const Material& material) {
@@ -31,6 +36,27 @@ bool has_own_pressure(const MethodOptions& options, const Material& material) {
 }
 
 namespace {
+
+// A column of z that a pin leads: moved by displaced * displacement + (R - I) arm.
+template <int Dim>
+struct LedColumn {
+  int column;
+  Pin<Dim> pin;
+  Vec<Dim> arm;
+  double displaced;
+};
+
+// Where the columns stand at load factor s.
+template <int Dim>
+VectorXd led_to(const VectorXd& rest, const std::vector<LedColumn<Dim>>& led, double s) {
+  VectorXd z = rest;
+  for (const auto& [column, pin, arm, displaced] : led) {
+    const Vec<Dim> motion = displaced * s * pin.displacement + (rotation<Dim>(s * pin.rotation) * arm - arm);
+    for (int a = 0; a < Dim; ++a)
+      if (pin.axes[a]) z[Dim * column + a] += motion[a];
+  }
+  return z;
+}
 
 template <int Dim>
 class Builder {
@@ -157,23 +183,38 @@ class Builder {
       cliques.emplace_back(n);
       std::iota(cliques.back().begin(), cliques.back().end(), 0);
     }
-    std::vector<int> n_held(n, 0), held;
+    std::vector<int> components(n, 0), held;  // a bit for each component held
     for (size_t i = 0; i < scene_.pins.size(); ++i)
-      for (const auto& [column, axes] : held_columns(int(i)))
-        for (int a = 0; a < Dim; ++a) n_held[column] |= axes[a] << a;
+      for (const auto& pinned : held_columns(int(i)))
+        for (int a = 0; a < Dim; ++a) components[pinned.column] |= pinned.axes[a] << a;
     for (int column = 0; column < n; ++column)
-      if (n_held[column] == (1 << Dim) - 1) held.push_back(column);
+      if (components[column] == (1 << Dim) - 1) held.push_back(column);
     return plan_elimination(n, cliques, held);
   }
 
-  // The unknowns that a pin holds, and which of their components. Condensed: all of its own column.
-  std::vector<std::pair<int, std::array<bool, Dim>>> held_columns(int pin) const {
-    std::array<bool, Dim> all;
-    all.fill(true);
-    if (condensed()) return {{first_pin_column_ + pin, all}};
-    std::vector<std::pair<int, std::array<bool, Dim>>> columns;
-    for (const int control : model_->held[pin].controls)
-      columns.push_back({unknown_of_control(model_->discretization.unknowns, control).value(), scene_.pins[pin].axes});
+  // An unknown that a pin holds, and how it leads it (LedColumn).
+  struct HeldColumn {
+    int column;
+    std::array<bool, Dim> axes;
+    Vec<Dim> arm;
+    double displaced;
+  };
+
+  // Condensed: all components of the pin's own columns.
+  std::vector<HeldColumn> held_columns(int i) const {
+    const auto& pin = scene_.pins[i];
+    std::vector<HeldColumn> columns;
+    if (condensed()) {
+      std::array<bool, Dim> all;
+      all.fill(true);
+      columns.push_back({first_pin_column_[i], all, Vec<Dim>::Zero(), 1});
+      for (int a = 0; a < Dim && !pin.rotation.isZero(0); ++a)
+        columns.push_back({first_pin_column_[i] + 1 + a, all, Vec<Dim>::Unit(a), 0});
+      return columns;
+    }
+    const Points<Dim> p = rest_controls(model_->discretization.boundary);
+    for (const int control : model_->held[i].controls)
+      columns.push_back({unknown_of_control(model_->discretization.unknowns, control).value(), pin.axes, p.col(control) - pin.center, 1});
     return columns;
   }
 
@@ -219,7 +260,7 @@ class Builder {
 
   bool condensed() const { return scene_.method.formulation == Formulation::condensed; }
 
-  // Which control points the pins hold. Condensed: each pin's displacement becomes a column of z.
+  // Which control points the pins hold. Condensed: each pin's displacement becomes columns of z.
   void select_pins() {
     auto& d = model_->discretization;
     for (size_t i = 0; i < scene_.pins.size(); ++i) {
@@ -228,7 +269,8 @@ class Builder {
       if (model_->held.back().controls.empty())
         throw InputError(file_, field, "no control point", "a part, box or index that matches at least one");
     }
-    if (condensed()) first_pin_column_ = append_columns(d, int(scene_.pins.size()));
+    if (!condensed()) return;
+    for (const auto& pin : scene_.pins) first_pin_column_.push_back(append_columns(d, pin.rotation.isZero(0) ? 1 : 1 + Dim));
   }
 
   // A pin holds the boundary where it holds all control points that it depends on, and by a spring
@@ -285,10 +327,38 @@ class Builder {
       const double size = std::min(std::pow(measure, 1.0 / (Dim - 1)), depth_below(samples.position.col(s), rule.normal.col(s)));
       points.penalty[k] = scene_.clamp_penalty * degree * degree / size;
       points.material.push_back(material_of(part));
-      points.pin_column.push_back(first_pin_column_ + held[k].pin);
     }
     points.map = map_at(d, points.position, true);
+    for (auto& block : points.map.blocks) subtract_pins(held, points.position, block);
     return points;
+  }
+
+  // The pins' displacement d0 + D (X - center) in their columns: d0, then the columns of D if the pin turns.
+  Eigen::RowVectorXd pin_row(int pin, const Vec<Dim>& X) const {
+    const bool turns = !scene_.pins[pin].rotation.isZero(0);
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Ones(turns ? 1 + Dim : 1);
+    if (turns) row.template tail<Dim>() = (X - scene_.pins[pin].center).transpose();
+    return row;
+  }
+
+  // Appends the columns of the pins that hold points of the block: its value becomes that of x - d.
+  void subtract_pins(const std::vector<HeldSample>& held, const Points<Dim>& position, MapBlock<Dim>& block) const {
+    std::set<int> pins;
+    for (const int s : block.points) pins.insert(held[s].pin);
+    for (const int pin : pins) {
+      const int first = int(block.columns.size()), n = int(pin_row(pin, position.col(0)).size());
+      const int n_points = int(block.points.size());
+      for (int j = 0; j < n; ++j) block.columns.push_back(first_pin_column_[pin] + j);
+      block.value.conservativeResize(n_points, first + n);
+      for (int k = 0; k < n_points; ++k) {
+        const int s = block.points[k];
+        block.value.row(k).tail(n) = held[s].pin == pin ? Eigen::RowVectorXd(-pin_row(pin, position.col(s))) : Eigen::RowVectorXd::Zero(n);
+      }
+      for (auto& gradient : block.gradient) {
+        gradient.conservativeResize(n_points, first + n);
+        gradient.rightCols(n).setZero();
+      }
+    }
   }
 
   // The pressure of the materials that have one of their own, a degree below the map's; empty if none has.
@@ -339,8 +409,11 @@ class Builder {
   HeldControl<Dim> spring(int control, int pin) const {
     const auto& d = model_->discretization;
     const double size = std::pow(d.boundary.box.diagonal(), Dim - 2);
-    return {d.unknowns.S.row(control), rest_controls(d.boundary).col(control), held_axes(pin),
-            first_pin_column_ + pin, 100 * size * material_of(part_of_control(control)).youngs_modulus};
+    const Vec<Dim> X = rest_controls(d.boundary).col(control);
+    Eigen::RowVectorXd output = d.unknowns.S.row(control);
+    const Eigen::RowVectorXd row = pin_row(pin, X);
+    output.segment(first_pin_column_[pin], row.size()) -= row;
+    return {output, X, held_axes(pin), 100 * size * material_of(part_of_control(control)).youngs_modulus};
   }
 
   Vec<Dim> held_axes(int pin) const {
@@ -361,19 +434,22 @@ class Builder {
 
   void make_pins() {
     System& system = model_->system;
-    model_->target = system.rest;
     std::vector<bool> held(system.size(), false);
+    std::vector<LedColumn<Dim>> led;
     for (size_t i = 0; i < scene_.pins.size(); ++i) {
       const auto& pin = scene_.pins[i];
-      for (const auto& [column, axes] : held_columns(int(i)))
+      for (const auto& held_column : held_columns(int(i))) {
         for (int a = 0; a < Dim; ++a) {
-          const int entry = Dim * column + a;
-          if (axes[a]) held[entry] = true;
-          if (!pin.axes[a]) continue;
-          model_->held[i].entries.push_back(entry);
-          model_->target[entry] = system.rest[entry] + pin.displacement[a];
+          const int entry = Dim * held_column.column + a;
+          if (held_column.axes[a]) held[entry] = true;
+          if (pin.axes[a]) model_->held[i].entries.push_back(entry);
         }
+        if (pin.moves()) led.push_back({held_column.column, pin, held_column.arm, held_column.displaced});
+      }
     }
+    model_->target = led_to(system.rest, led, 1);
+    if (std::any_of(led.begin(), led.end(), [](const auto& one) { return !one.pin.rotation.isZero(0); }))
+      model_->path = [rest = system.rest, led](double s) { return led_to(rest, led, s); };
     for (int entry = 0; entry < system.size(); ++entry)
       if (!held[entry]) system.free.push_back(entry);
     if (system.free.empty())
@@ -401,19 +477,18 @@ class Builder {
 
   void make_loads() {
     const auto& d = model_->discretization;
-    VectorXd& f = model_->system.load;
-    f = VectorXd::Zero(model_->system.size());
-    if (!scene_.gravity.isZero(0)) add_body_force<Dim>(d.interior, model_->point_mass, scene_.gravity, f);
+    model_->load.constant = VectorXd::Zero(model_->system.size());
+    if (!scene_.gravity.isZero(0)) add_body_force<Dim>(d.interior, model_->point_mass, scene_.gravity, model_->load.constant);
     for (const auto& load : scene_.body_loads) {
       VectorXd volume = d.quadrature.weight;
       if (!load.solid.empty())
         for (int k = 0; k < d.quadrature.size(); ++k)
           if (scene_.solids[d.quadrature.solid[k]].name != load.solid) volume[k] = 0;
-      add_body_force<Dim>(d.interior, volume, load.force, f);
+      add_body_force<Dim>(d.interior, volume, load.force, force_of(load.oscillation));
     }
     for (const auto& load : scene_.point_loads) {
       require_in_body(load.at, "loads[" + std::to_string(load.index) + "].at");
-      add_point_force<Dim>(d, load.at, load.force, f);
+      add_point_force<Dim>(d, load.at, load.force, force_of(load.oscillation));
     }
     for (const auto& load : scene_.boundary_loads) {
       const Traction<Dim> traction = [&](int part, const Vec<Dim>& X, const Vec<Dim>& normal) -> Vec<Dim> {
@@ -423,10 +498,19 @@ class Builder {
         if (!here) return Vec<Dim>::Zero();
         return load.traction - load.pressure * normal;
       };
-      if (add_traction<Dim>(d, traction, f) == 0 && (load.pressure != 0 || !load.traction.isZero(0)))
+      if (add_traction<Dim>(d, traction, force_of(load.oscillation)) == 0 && (load.pressure != 0 || !load.traction.isZero(0)))
         throw InputError(file_, "loads[" + std::to_string(load.index) + "]",
                          "no boundary", "a part or box that matches some of it");
     }
+    model_->system.load = model_->load.mean();
+  }
+
+  // Where a load's force is added up.
+  VectorXd& force_of(const Oscillation& oscillation) {
+    auto& load = model_->load;
+    if (oscillation.amplitude == 0) return load.constant;
+    load.periodic.push_back({VectorXd::Zero(load.constant.size()), oscillation});
+    return load.periodic.back().force;
   }
 
   void require_in_body(const Vec<Dim>& X, const std::string& field) const {
@@ -448,7 +532,7 @@ class Builder {
 
   const Scene<Dim>& scene_;
   const std::string& file_;
-  int first_pin_column_ = 0;  // condensed
+  std::vector<int> first_pin_column_;  // condensed, per pin
   std::vector<std::pair<std::string, std::string>> part_names_;  // solid, part
   std::vector<const Material*> part_materials_;
   std::vector<double> part_densities_;

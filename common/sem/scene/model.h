@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "sem/mechanics/internal_energy.h"
+#include "sem/scene/analysis.h"
 #include "sem/scene/scene.h"
 #include "sem/solve/system.h"
 
@@ -31,12 +32,19 @@ struct Model {
   std::unique_ptr<InternalEnergy<Dim>> energy;
   System system;                    ///< refers to energy; its mass is scalar, kinetic stability term included
   State initial;
-  Eigen::VectorXd target;           ///< z with the prescribed displacements of the pins
+  LoadInTime load;                  ///< system.load is its mean, or in a dynamic analysis the present one
+  Eigen::VectorXd target;           ///< z with the pins where they are led
+  PinPath path;                     ///< of the pins to there; empty if none turns
   std::vector<Held> held;           ///< per pin
   std::vector<StageCost> cost;      ///< all stages, those of the discretisation first
 
   double total_mass() const { return point_mass.sum(); }
   int n_unknowns() const { return int(system.free.size()); }
+  /// What march() calls before a step; empty if the load is constant.
+  std::function<void(double)> set_load() {
+    if (load.periodic.empty()) return {};
+    return [this](double time) { system.load = load.at(time); };
+  }
 };
 
 /// True if the material has a pressure of its own (mechanics/pressure.h) under these options.
@@ -48,7 +56,7 @@ bool has_own_pressure(const MethodOptions& options, const Material& material);
 template <int Dim>
 std::unique_ptr<Model<Dim>> build_model(const Scene<Dim>& scene, const std::string& file);
 
-/// True if the name, its group (the text before the dot) or "solid/" and either is the selector's part.
+/// True if the name, one of its groups (the text before a dot) or "solid/" and any of these is the selector's part.
 bool matches_part(const std::string& selected, const std::string& solid, const std::string& part);
 
 }  // namespace sem

@@ -31,7 +31,7 @@ Monitor<Dim>::Monitor(const Scene<Dim>& scene, const Model<Dim>& model) : scene_
     const auto columns = columns_of(probe);
     probe_columns_.insert(probe_columns_.end(), columns.begin(), columns.end());
     for (size_t c = 0; c < columns.size(); ++c)
-      probe_truths_.push_back(probe.truth ? std::optional((*probe.truth)[c]) : std::nullopt);
+      probe_truths_.push_back(probe.truth && probe.truth_axes[c] ? std::optional((*probe.truth)[c]) : std::nullopt);
     const bool at_point = probe.kind != ProbeKind::reaction;
     probe_maps_.push_back(at_point ? map_at<Dim>(d, probe.at, probe.kind == ProbeKind::stress)
                                    : Map<Dim>());

@@ -24,7 +24,7 @@ void describe_material(Fields& fields, Material& m) {
 
 template <int Dim>
 void describe_part(Fields& fields, ScenePart<Dim>& part) {
-  fields.text("name", part.name, "unique in the solid; the text before a dot is the part's group");
+  fields.text("name", part.name, "unique in the solid; the text before any dot is a group that the part belongs to");
   auto& shape = part.shape;
   for (int axis = 0; axis < Dim - 1; ++axis) {
     const std::string suffix = DimTraits<Dim>::parameter_suffix[axis];
@@ -55,14 +55,31 @@ void describe_part(Fields& fields, ScenePart<Dim>& part) {
 }
 
 template <int Dim>
+void describe_named_shape(Fields& fields, std::vector<ScenePart<Dim>>& parts, const ShapeLibrary<Dim>& shapes) {
+  std::string name;
+  fields.text("name", name, "put before the names of the shape's parts: \"handle\" and \"side.2\" make \"handle.side.2\"; a 'material' of the shape is that of all its parts");
+  const size_t first = parts.size();
+  shapes(fields, parts);
+  for (size_t i = first; i < parts.size() && !name.empty(); ++i) parts[i].name = name + '.' + parts[i].name;
+  if (!fields.reading() || !fields.optional("material", false)) return;
+  Material material;
+  fields.object("material", "", [&](Fields& f) { describe_material(f, material); });
+  for (size_t i = first; i < parts.size(); ++i) parts[i].material = material;
+}
+
+template <int Dim>
 void describe_solid(Fields& fields, SceneSolid<Dim>& solid, const ShapeLibrary<Dim>& shapes) {
   fields.text("name", solid.name, "unique in the scene");
   fields.object("material", "of the whole solid", [&](Fields& f) { describe_material(f, solid.material); });
   fields.items<ScenePart<Dim>>("parts", solid.parts, "the NURBS that bound the solid, in any order and orientation",
                                describe_part<Dim>);
   if (shapes && fields.optional("shape", false))
-    fields.object("shape", "parts from the shape library, in place of or beside 'parts'",
-                  [&](Fields& f) { shapes(f, solid.parts); });
+    fields.object("shape", "parts from the shape library, beside 'parts' or in their place",
+                  [&](Fields& f) { describe_named_shape(f, solid.parts, shapes); });
+  if (shapes && fields.optional("shapes", false))
+    fields.list("shapes", "several of them, as in 'shape'", 0, [](int) {}, [&](Fields& f, int) {
+      if (!f.documenting()) describe_named_shape(f, solid.parts, shapes);
+    });
   if (!fields.reading()) return;
   if (solid.parts.empty()) fields.reject(nullptr, "no part", "'parts' or a 'shape'");
   std::set<std::string> names;
@@ -150,23 +167,40 @@ void describe_selector(Fields& fields, Selector<Dim>& where, bool controls) {
     fields.integers("control_points", where.control_points, 0, "only these, counted from 0 in each part");
 }
 
+// Components by their names, "xy"; all if absent.
 template <int Dim>
-void describe_pin(Fields& fields, Pin<Dim>& pin) {
-  describe_selector(fields, pin.where, true);
+void describe_axes(Fields& fields, const char* key, std::array<bool, Dim>& held, const char* meaning) {
   std::string axes;  // all, or when writing those held
   for (int a = 0; a < Dim; ++a)
-    if (fields.reading() || fields.documenting() || pin.axes[a]) axes += DimTraits<Dim>::axis_name[a];
-  fields.text("axes", axes, "components held");
-  if (axes.empty()) fields.reject("axes", "no axis", std::string("some of ") + DimTraits<Dim>::axis_name);
-  if (fields.reading()) pin.axes.fill(false);
+    if (fields.reading() || fields.documenting() || held[a]) axes += DimTraits<Dim>::axis_name[a];
+  fields.text(key, axes, meaning);
+  const std::string allowed = std::string("some of ") + DimTraits<Dim>::axis_name;
+  if (axes.empty()) fields.reject(key, "no axis", allowed);
+  if (fields.reading()) held.fill(false);
   for (const char axis : axes) {
     const auto at = std::string(DimTraits<Dim>::axis_name).find(axis);
     if (at == std::string::npos)
-      fields.reject("axes", std::string("'") + axis + "'", std::string("some of ") + DimTraits<Dim>::axis_name);
+      fields.reject(key, std::string("'") + axis + "'", allowed);
     else
-      pin.axes[at] = true;
+      held[at] = true;
   }
+}
+
+template <int Dim>
+void describe_pin(Fields& fields, Pin<Dim>& pin) {
+  describe_selector(fields, pin.where, true);
+  describe_axes<Dim>(fields, "axes", pin.axes, "components held");
   fields.vector<Dim>("displacement", pin.displacement, "m", "prescribed displacement (static analysis)");
+  std::vector<double> rotation(pin.rotation.begin(), pin.rotation.end());
+  fields.numbers("rotation", rotation, DimTraits<Dim>::n_rotations, any_number, "rad",
+                 "prescribed turn about 'center' (static analysis), any number of times: the angle; 3D: times the axis");
+  for (size_t a = 0; a < rotation.size(); ++a) pin.rotation[a] = rotation[a];
+  fields.vector<Dim>("center", pin.center, "m", "of the turn");
+}
+
+void describe_oscillation(Fields& fields, Oscillation& oscillation) {
+  fields.number("amplitude", oscillation.amplitude, any_number, "", "dynamic: the load is multiplied by 1 + amplitude sin(2 pi t / period)");
+  fields.number("period", oscillation.period, positive, "s", "dynamic: of the amplitude");
 }
 
 // The loads of a scene as one list with a type each.
@@ -183,21 +217,24 @@ void describe_loads(Fields& fields, Scene<Dim>& scene) {
       f.vector<Dim>("at", load.at, "m", "point: a rest point in or on the body");
       f.require("force");
       f.vector<Dim>("force", load.force, "N", "point: force; body: force per volume in N/m^3");
+      describe_oscillation(f, load.oscillation);
     };
     const auto describe_boundary = [&](BoundaryLoad<Dim>& load) {
       describe_selector(f, load.where, false);
       f.vector<Dim>("traction", load.traction, "Pa", "boundary: force per length (2D) or area, fixed direction");
       f.number("pressure", load.pressure, any_number, "Pa", "boundary: pushes against the outward rest normal");
+      if (!f.documenting()) describe_oscillation(f, load.oscillation);
     };
     const auto describe_body = [&](BodyLoad<Dim>& load) {
       f.require("force");
       f.vector<Dim>("force", load.force, "N/m^3", "body: force per rest volume");
       f.text("solid", load.solid, "body: only this solid; empty: all");
+      describe_oscillation(f, load.oscillation);
     };
     if (f.documenting()) {
-      PointLoad<Dim> point{Vec<Dim>::Zero(), Vec<Dim>::Zero(), 0};
+      PointLoad<Dim> point{Vec<Dim>::Zero(), Vec<Dim>::Zero(), 0, {}};
       BoundaryLoad<Dim> boundary;
-      BodyLoad<Dim> body{"", Vec<Dim>::Zero(), 0};
+      BodyLoad<Dim> body{"", Vec<Dim>::Zero(), 0, {}};
       describe_point(point);
       describe_boundary(boundary);
       f.text("solid", body.solid, "body: only this solid; empty: all");
@@ -232,6 +269,7 @@ void describe_probe(Fields& fields, Probe<Dim>& probe) {
   if (displacement && fields.optional("truth", probe.truth.has_value())) {
     if (!probe.truth) probe.truth = Vec<Dim>::Zero();
     fields.vector<Dim>("truth", *probe.truth, "m", "displacement: the exact value at the end, if known; the report compares");
+    describe_axes<Dim>(fields, "truth_axes", probe.truth_axes, "components of 'truth' that are known");
   }
   if (at_pin || fields.documenting()) {
     fields.require("pin");
@@ -278,10 +316,12 @@ void check_names(Fields& fields, const Scene<Dim>& scene) {
   for (const auto& solid : scene.solids) {
     solids.push_back(solid.name);
     for (const auto& part : solid.parts) {
-      const std::string group = part.name.substr(0, part.name.find('.'));
-      for (const auto& name : {part.name, group})
+      for (size_t end = part.name.find('.');; end = part.name.find('.', end + 1)) {
+        const std::string name = part.name.substr(0, end);
         for (const auto& known : {name, solid.name + "/" + name})
           if (std::find(parts.begin(), parts.end(), known) == parts.end()) parts.push_back(known);
+        if (end == std::string::npos) break;
+      }
     }
   }
   const auto check_name = [&](const std::string& name, const std::vector<std::string>& known, const std::string& where) {
@@ -346,9 +386,10 @@ void describe_scene(Fields& fields, Scene<Dim>& scene, const ShapeLibrary<Dim>& 
       fields.reject("solids", "two solids named '" + scene.solids[i].name + "'", "a name of its own for each");
   }
   for (size_t i = 0; i < scene.pins.size(); ++i)
-    if (!scene.pins[i].displacement.isZero(0) && scene.analysis.kind != AnalysisKind::statics)
-      fields.reject(("pins[" + std::to_string(i) + "].displacement").c_str(), "a prescribed displacement",
-                    "this only in a static analysis");
+    if (scene.pins[i].moves() && scene.analysis.kind != AnalysisKind::statics) {
+      const std::string motion = scene.pins[i].rotation.isZero(0) ? "displacement" : "rotation";
+      fields.reject(("pins[" + std::to_string(i) + "]." + motion).c_str(), "a prescribed " + motion, "this only in a static analysis");
+    }
   check_names(fields, scene);
 }
 

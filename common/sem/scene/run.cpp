@@ -119,7 +119,7 @@ class Run {
   }
 
   void run_statics() {
-    const AnalysisReport report = equilibrium(model_->system, scene_.analysis, model_->target, state_);
+    const AnalysisReport report = equilibrium(model_->system, scene_.analysis, model_->target, state_, model_->path);
     history_ = std::make_unique<Table>(monitor_->columns());
     history_->add(monitor_->row(state_, {}, int(report.iterations), report.residual, 1));
     frame(state_, 0);
@@ -165,7 +165,7 @@ class Run {
           next_frame();
           if (now.step % stride == 0 && now.step < last) checkpoint(settings);
           progress(double(now.step) / double(last), "simulating");
-        });
+        }, model_->set_load());
     checkpoint(settings);
     const std::string reached = "t = " + exact_text(state_.time) + " s";
     finish(report, std::to_string(state_.step) + " steps to " + reached);

@@ -13,9 +13,17 @@
 
 namespace sem {
 
+/// All components, of what may be given for some.
+template <int Dim>
+constexpr std::array<bool, Dim> every_axis() {
+  std::array<bool, Dim> axes{};
+  for (bool& axis : axes) axis = true;
+  return axes;
+}
+
 template <int Dim>
 struct ScenePart {
-  std::string name;  ///< "left.1"; the text before the dot is the part's group
+  std::string name;  ///< "left.1"; the text before a dot is a group
   Nurbs<Dim - 1, Dim> shape;
   std::optional<Material> material;  ///< in place of the solid's, where this part's distance weight (theta) is the largest
 };
@@ -39,7 +47,18 @@ template <int Dim>
 struct Pin {
   Selector<Dim> where;
   std::array<bool, Dim> axes;                  ///< components held
-  Vec<Dim> displacement = Vec<Dim>::Zero();    ///< m, prescribed (static analysis only)
+  /// Prescribed (static analysis only): at load factor s a point X of the pin stands at
+  /// center + R(s rotation) (X - center) + s displacement.
+  Vec<Dim> displacement = Vec<Dim>::Zero();  ///< m
+  Vec<DimTraits<Dim>::n_rotations> rotation = Vec<DimTraits<Dim>::n_rotations>::Zero();  ///< rad, angle times axis
+  Vec<Dim> center = Vec<Dim>::Zero();        ///< m
+  bool moves() const { return !displacement.isZero(0) || !rotation.isZero(0); }
+};
+
+/// A load times 1 + amplitude sin(2 pi t / period) in a dynamic analysis, as it is in the others.
+struct Oscillation {
+  double amplitude = 0;  ///< 0: constant
+  double period = 1;     ///< s, > 0
 };
 
 /// Dead loads; 2D: per unit thickness.
@@ -47,6 +66,7 @@ template <int Dim>
 struct PointLoad {
   Vec<Dim> at, force;  ///< m, N: on the map at a rest point
   int index = 0;       ///< in the scene's list of loads, for messages
+  Oscillation oscillation = {};
 };
 template <int Dim>
 struct BoundaryLoad {
@@ -54,12 +74,14 @@ struct BoundaryLoad {
   Vec<Dim> traction = Vec<Dim>::Zero();  ///< N per m (2D) or m^2
   double pressure = 0;                   ///< Pa, pushes against the outward rest normal
   int index = 0;
+  Oscillation oscillation = {};
 };
 template <int Dim>
 struct BodyLoad {
   std::string solid;  ///< empty: all
   Vec<Dim> force;     ///< N/m^3
   int index = 0;
+  Oscillation oscillation = {};
 };
 
 enum class ProbeKind { displacement, stress, reaction };
@@ -70,6 +92,7 @@ struct Probe {
   Vec<Dim> at = Vec<Dim>::Zero();  ///< rest point (displacement, Cauchy stress)
   int pin = 0;                     ///< index into pins (reaction: force on the body by the pin, N)
   std::optional<Vec<Dim>> truth = {};  ///< m: the exact displacement at the end, if known; for the report
+  std::array<bool, Dim> truth_axes = every_axis<Dim>();  ///< components of it that are known
 };
 
 enum class AnalysisKind { statics, dynamics, modes };

@@ -23,7 +23,10 @@ StaticReport solve_static(const System& system, State& state, const StaticOption
     double factor = report.load_factor + stride;
     if (factor > 1 - 1e-9) factor = 1;
     load = factor * system.load;
-    prescribed = (factor - report.load_factor) * travel;
+    if (options.path)
+      prescribed = options.path(factor) - state.z;
+    else
+      prescribed = (factor - report.load_factor) * travel;
     const NewtonReport step =
         newton.minimize({state.z, load, 0, no_drift, prescribed},
                         {options.tolerance, options.max_iterations}, increment);

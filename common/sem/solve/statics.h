@@ -3,18 +3,23 @@
 //
 // Newton's method with a backtracking line search on V(z) - f . z (newton.h),
 // in load steps: at load factor s in (0, 1] the load is s f and the pinned
-// entries stand at z_start + s (target - z_start).
+// entries stand at z_start + s (target - z_start) or path(s).
 
 #include <Eigen/Core>
+#include <functional>
 
 #include "sem/solve/newton.h"
 #include "sem/solve/system.h"
 
 namespace sem {
 
+/// Where pinned entries stand at a load factor, n (free ones ignored).
+using PinPath = std::function<Eigen::VectorXd(double)>;
+
 struct StaticOptions {
   Eigen::VectorXd
       target;            ///< n: where pinned entries are led (free ones ignored); empty: they stay
+  PinPath path;          ///< on the way to the target, which it ends at; empty: straight
   int n_load_steps = 1;  ///< >= 1; a quadratic potential always takes one
   int max_halvings = 8;  ///< how often the load step may be halved after a failure
   double tolerance = 1e-10;  ///< on the residual relative to the reference force
