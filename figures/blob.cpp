@@ -3,13 +3,13 @@
 #include "sem/base/error.h"
 #include "sem/nurbs/basis.h"
 #include "sem/scene/model.h"
-#include "src2d/scenes/builtin.h"
+#include "sem/scene/builtin.h"
 #include "src2d/shapes/shape_fields.h"
 
 namespace sem::figures {
 
 Discretization<2> builtin_body(const std::string& name, const std::vector<std::string>& overrides) {
-  for (const auto& scene : builtin_scenes())
+  for (const auto& scene : builtin_scenes<2>())
     if (scene.name == name)
       return build_model(read_scene<2>(scene.text, name, shapes2d::describe_shape, overrides), name)
           ->discretization;

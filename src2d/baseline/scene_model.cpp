@@ -3,14 +3,14 @@
 #include "sem/base/error.h"
 #include "sem/scene/analysis.h"
 #include "sem/scene/read_scene.h"
-#include "src2d/scenes/builtin.h"
+#include "sem/scene/builtin.h"
 #include "src2d/shapes/shape_fields.h"
 
 namespace sem::baseline {
 namespace {
 
 Scene<2> builtin_scene(const std::string& name, const std::vector<std::string>& overrides) {
-  for (const auto& scene : builtin_scenes())
+  for (const auto& scene : builtin_scenes<2>())
     if (scene.name == name)
       return read_scene<2>(scene.text, name, shapes2d::describe_shape, overrides);
   throw InputError("", "scene", name, "a built-in scene");

@@ -11,7 +11,7 @@
 #include "sem/scene/model.h"
 #include "sem/scene/read_scene.h"
 #include "sem/solve/modes.h"
-#include "src2d/scenes/builtin.h"
+#include "sem/scene/builtin.h"
 #include "src2d/shapes/shape_fields.h"
 #include "timing.h"
 
@@ -149,7 +149,7 @@ int main(int argc, char** argv) try {
   }
   const auto kernels = time_kernels();
   std::vector<SceneTime> scenes;
-  for (const auto& builtin : builtin_scenes()) scenes.push_back(time_scene(builtin));
+  for (const auto& builtin : builtin_scenes<2>()) scenes.push_back(time_scene(builtin));
   json ? print_json(kernels, scenes) : print_tables(kernels, scenes);
   return 0;
 } catch (const std::exception& error) {

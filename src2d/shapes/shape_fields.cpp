@@ -114,6 +114,19 @@ void describe(Fields& fields, SplineLoop& loop) {
                  "spline_loop: parts that the loop is cut into");
 }
 
+void describe(Fields& fields, Path& path) {
+  fields.require("control_points");
+  fields.points<2>("control_points", path.control_points, "m", "path: control polygon of an open uniform B-spline");
+  path.degree = std::clamp(int(path.control_points.cols()) - 1, 1, 3);
+  fields.integer("degree", path.degree, 1, 9, "path: NURBS degree; 3 if absent and there are points enough");
+  const int n = int(path.control_points.cols());
+  if (n <= path.degree)
+    fields.reject("control_points", std::to_string(n) + " control points", "more than 'degree', " + std::to_string(path.degree));
+  if (n > 0 && (path.control_points.colwise() - Vec<2>(path.control_points.col(0))).isZero(0))
+    fields.reject("control_points", "the same point throughout", "points that differ");
+  fields.integer("parts", path.n_parts, 1, max_parts, "path: parts that it is cut into");
+}
+
 template <class Shape>
 void append(Fields& fields, Parts& parts) {
   Shape shape;
@@ -135,7 +148,8 @@ void describe_shape(Fields& fields, std::vector<ScenePart<2>>& parts) {
                                {"ellipse", append<Ellipse>},
                                {"annulus", append<Annulus>},
                                {"closed_curve", append<ClosedCurve>},
-                               {"spline_loop", append<SplineLoop>}};
+                               {"spline_loop", append<SplineLoop>},
+                               {"path", append<Path>}};
   std::vector<std::string> names;
   for (const Type& type : types) names.push_back(type.name);
   int chosen = 0;

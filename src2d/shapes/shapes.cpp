@@ -1,5 +1,6 @@
 #include "src2d/shapes/shapes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sem/nurbs/bezier_curve.h"
@@ -75,6 +76,28 @@ Nurbs<1, 2> periodic_cubic(const Points<2>& control_points) {
   return curve;
 }
 
+// Equal steps of the parameter, from 0. Where parts meet, rounding may differ: the start of one is the end
+// of the one before.
+Parts cut(const Nurbs<1, 2>& whole, const std::string& name, int n_parts, bool is_loop) {
+  const double length = domain(whole, 0).upper;
+  Nurbs<1, 2> rest = whole;
+  Parts parts;
+  for (int k = 1; k <= n_parts; ++k) {
+    Nurbs<1, 2> part = rest;
+    if (k < n_parts) {
+      const auto halves = split_at(rest, 0, length * k / n_parts);
+      part = halves[0];
+      rest = halves[1];
+    }
+    parts.push_back({numbered(name, k), std::move(part), {}});
+  }
+  for (size_t k = is_loop ? 0 : 1; k < parts.size(); ++k) {
+    const auto& before = parts[(k + parts.size() - 1) % parts.size()].shape.control_points;
+    parts[k].shape.control_points.col(0) = Vec<2>(before.col(before.cols() - 1));
+  }
+  return parts;
+}
+
 }  // namespace
 
 Parts make_parts(const Rectangle& r) {
@@ -125,24 +148,18 @@ Parts make_parts(const ClosedCurve& curve) {
 }
 
 Parts make_parts(const SplineLoop& loop) {
-  Nurbs<1, 2> rest = clamped(periodic_cubic(loop.control_points), 0);
-  const double length = double(loop.control_points.cols());
-  Parts parts;
-  for (int k = 1; k <= loop.n_parts; ++k) {
-    Nurbs<1, 2> part = rest;
-    if (k < loop.n_parts) {
-      const auto halves = split_at(rest, 0, length * k / loop.n_parts);
-      part = halves[0];
-      rest = halves[1];
-    }
-    parts.push_back({numbered("loop", k), std::move(part), {}});
-  }
-  // Where parts meet, rounding may differ: the start of one is the end of the one before.
-  for (size_t k = 0; k < parts.size(); ++k) {
-    const auto& before = parts[(k + parts.size() - 1) % parts.size()].shape.control_points;
-    parts[k].shape.control_points.col(0) = Vec<2>(before.col(before.cols() - 1));
-  }
-  return parts;
+  const Nurbs<1, 2> whole = clamped(periodic_cubic(loop.control_points), 0);
+  return cut(whole, "loop", loop.n_parts, true);
+}
+
+Parts make_parts(const Path& path) {
+  const int n = int(path.control_points.cols()), p = path.degree;
+  Nurbs<1, 2> whole;
+  whole.degree = {p};
+  for (int k = 0; k < n + p + 1; ++k) whole.knots[0].push_back(std::clamp(k - p, 0, n - p));
+  whole.control_points = path.control_points;
+  whole.weights.setOnes(n);
+  return cut(whole, "path", path.n_parts, false);
 }
 
 }  // namespace sem::shapes2d

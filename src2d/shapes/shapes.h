@@ -73,4 +73,13 @@ struct SplineLoop {
 };
 Parts make_parts(const SplineLoop& loop);
 
+/// An open curve: the B-spline of the control polygon with clamped ends and uniform knots, cut at equal steps of
+/// its parameter into "path.1", "path.2", ... It bounds nothing by itself.
+struct Path {
+  Points<2> control_points;  ///< m, n >= degree + 1
+  int degree = 3;            ///< 1 to 9; 1: straight from point to point
+  int n_parts = 1;           ///< >= 1
+};
+Parts make_parts(const Path& path);
+
 }  // namespace sem::shapes2d

@@ -28,7 +28,7 @@
 #include "sem/scene/monitor.h"
 #include "sem/scene/read_scene.h"
 #include "sem/scene/run.h"
-#include "src2d/scenes/builtin.h"
+#include "sem/scene/builtin.h"
 #include "src2d/shapes/shape_fields.h"
 #include "src2d/tutorials/pictures.h"
 #include "src2d/tutorials/plots.h"
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
       "read_scene: from text to data",
       [&](std::ostream& out) {
         std::string text;
-        for (const auto& builtin : builtin_scenes())
+        for (const auto& builtin : builtin_scenes<2>())
           if (builtin.name == "blob") text = builtin.text;
         scene = read_scene<2>(text, "blob", shapes2d::describe_shape,
                               {"method.degree=" + std::to_string(degree),

@@ -11,24 +11,17 @@ double interpolate(double a, double b, int k, int n) {
 // Patch (i, j) of the face of constant `axis`; u along axes[0], v along axes[1].
 Nurbs<2, 3> patch(const Box& box, int axis, double plane, const std::array<int, 2>& axes, int i,
                   int j) {
-  const int p = box.degree;
   Nurbs<2, 3> surface;
-  surface.degree = {p, p};
-  for (auto& knots : surface.knots) {
-    knots.assign(p + 1, 0.0);
-    knots.insert(knots.end(), p + 1, 1.0);
-  }
-  surface.control_points.resize(3, (p + 1) * (p + 1));
-  surface.weights.setOnes((p + 1) * (p + 1));
-  const auto coordinate = [&](int a, int part, int k) {
-    return interpolate(box.lower[a], box.upper[a], part * p + k, box.n_parts[a] * p);
-  };
-  for (int v = 0; v <= p; ++v)
-    for (int u = 0; u <= p; ++u) {
-      auto X = surface.control_points.col(u + v * (p + 1));
+  surface.degree = {1, 1};
+  surface.knots.fill({0, 0, 1, 1});
+  surface.control_points.resize(3, 4);
+  surface.weights.setOnes(4);
+  for (int v = 0; v <= 1; ++v)
+    for (int u = 0; u <= 1; ++u) {
+      auto X = surface.control_points.col(u + 2 * v);
       X[axis] = plane;
-      X[axes[0]] = coordinate(axes[0], i, u);
-      X[axes[1]] = coordinate(axes[1], j, v);
+      X[axes[0]] = interpolate(box.lower[axes[0]], box.upper[axes[0]], i + u, box.n_parts[axes[0]]);
+      X[axes[1]] = interpolate(box.lower[axes[1]], box.upper[axes[1]], j + v, box.n_parts[axes[1]]);
     }
   return surface;
 }

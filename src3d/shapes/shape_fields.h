@@ -5,9 +5,10 @@
 
 namespace sem::shapes3d {
 
-/// Describes "type" (box) and its fields; reading appends its parts. Throws
-/// InputError that names the field for a box that box.h does not allow. A
-/// ShapeLibrary<3>.
+/// Describes "type" (box, cylinder, sphere, torus, extrude, revolve, loft, ruled, coons), its
+/// fields, and those of all types: "degree", "split", "scale", "rotate", "move", applied in this
+/// order (parts.h). Reading appends the parts. Throws InputError that names the field for a shape
+/// that box.h, solids.h or surfaces.h do not allow. A ShapeLibrary<3>.
 void describe_shape(Fields& fields, std::vector<ScenePart<3>>& parts);
 
 }  // namespace sem::shapes3d

@@ -5,7 +5,7 @@
 
 #include "sem/scene/model.h"
 #include "sem/scene/read_scene.h"
-#include "src2d/scenes/builtin.h"
+#include "sem/scene/builtin.h"
 #include "src2d/shapes/shape_fields.h"
 
 using namespace sem;
@@ -17,19 +17,19 @@ Scene<2> read(const BuiltinScene& scene) {
 }
 
 const BuiltinScene& builtin(const std::string& name) {
-  for (const auto& scene : builtin_scenes())
+  for (const auto& scene : builtin_scenes<2>())
     if (scene.name == name) return scene;
   FAIL("no scene " << name);
-  return builtin_scenes()[0];
+  return builtin_scenes<2>()[0];
 }
 
 }  // namespace
 
 TEST_CASE("built-in scenes: the blob first, all named and described") {
-  REQUIRE(builtin_scenes().size() == 12);
-  CHECK(builtin_scenes()[0].name == "blob");
+  REQUIRE(builtin_scenes<2>().size() == 12);
+  CHECK(builtin_scenes<2>()[0].name == "blob");
   std::set<std::string> names;
-  for (const auto& builtin : builtin_scenes()) {
+  for (const auto& builtin : builtin_scenes<2>()) {
     CAPTURE(builtin.name);
     CHECK(names.insert(builtin.name).second);
     const Scene<2> scene = read(builtin);
@@ -41,7 +41,7 @@ TEST_CASE("built-in scenes: the blob first, all named and described") {
 }
 
 TEST_CASE("built-in scenes: written out in full they read as the same scene") {
-  for (const auto& builtin : builtin_scenes()) {
+  for (const auto& builtin : builtin_scenes<2>()) {
     CAPTURE(builtin.name);
     const std::string written = write_scene(read(builtin));
     CHECK(write_scene(read_scene<2>(written, "written", {})) == written);
@@ -49,7 +49,7 @@ TEST_CASE("built-in scenes: written out in full they read as the same scene") {
 }
 
 TEST_CASE("built-in scenes: each makes a model that covers its inside") {
-  for (const auto& builtin : builtin_scenes()) {
+  for (const auto& builtin : builtin_scenes<2>()) {
     CAPTURE(builtin.name);
     const auto model = build_model(read(builtin), builtin.name);
     const auto& d = model->discretization;

@@ -243,3 +243,18 @@ TEST_CASE("spline loop: the closed curve, cut into clamped parts joined bit for 
     CHECK(moments(parts).volume == doctest::Approx(area).epsilon(1e-13));
   }
 }
+
+TEST_CASE("path: an open B-spline from its first control point to the last, cut into parts joined bit for bit") {
+  const auto whole = make_parts(Path{loop_points(), 3, 1})[0].shape;
+  CHECK(at(whole, 0) == Vec<2>(loop_points().col(0)));
+  CHECK(at(whole, 1) == Vec<2>(loop_points().col(6)));
+  const Parts parts = make_parts(Path{loop_points(), 3, 3});
+  REQUIRE(parts.size() == 3);
+  CHECK(parts[2].name == "path.3");
+  for (int k = 0; k < 3; ++k) {
+    for (double share : {0.0, 0.4, 1.0}) CHECK((at(parts[k].shape, share) - at(whole, (k + share) / 3)).norm() < 4e-15);
+    if (k > 0) CHECK(Vec<2>(parts[k - 1].shape.control_points.rightCols<1>()) == parts[k].shape.control_points.col(0));
+  }
+  const Parts straight = make_parts(Path{loop_points(), 1, 6});
+  for (int k = 0; k < 6; ++k) CHECK((at(straight[k].shape, 1) - loop_points().col(k + 1)).norm() < 1e-15);
+}

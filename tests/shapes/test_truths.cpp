@@ -5,7 +5,7 @@
 #include "sem/scene/read_scene.h"
 #include "sem/scene/run.h"
 #include "sem/solve/statics.h"
-#include "src2d/scenes/builtin.h"
+#include "sem/scene/builtin.h"
 #include "src2d/shapes/shape_fields.h"
 
 using namespace sem;
@@ -21,7 +21,7 @@ TEST_CASE("cantilever, annulus, U: reports state truth, error and estimate; the 
   for (const Case& c : {Case{"cantilever", -0.327883, -0.3684452, 1}, Case{"annulus", 8.42983e-7, 1.906666667e-6, 0},
                         Case{"u_gap", -0.001917, -1.9716e-3, 1}}) {
     CAPTURE(c.name);
-    for (const auto& builtin : builtin_scenes()) {
+    for (const auto& builtin : builtin_scenes<2>()) {
       if (builtin.name != c.name) continue;
       const auto scene = read_scene<2>(builtin.text, c.name, shapes2d::describe_shape);
       REQUIRE(scene.probes[0].truth);

@@ -19,9 +19,13 @@ using Eigen::VectorXd;
 
 bool matches_part(const std::string& selected, const std::string& solid, const std::string& part) {
   // A half "top.2~1" answers to the name of the whole, "top.2".
-  const std::string whole = part.substr(0, part.find('~')), group = whole.substr(0, whole.find('.'));
-  return selected == part || selected == whole || selected == solid + "/" + whole || selected == group || selected == solid + "/" + part ||
-         selected == solid + "/" + group;
+  const std::string whole = part.substr(0, part.find('~'));
+  const auto is_group = [&](const std::string& name) {
+    return whole.starts_with(name) && (whole.size() == name.size() || whole[name.size()] == '.');
+  };
+  const bool in_solid = selected.starts_with(solid + "/");
+  const std::string name = in_solid ? selected.substr(solid.size() + 1) : selected;
+  return name == part || is_group(name) || selected == part || is_group(selected);
 }
 
 bool has_own_pressure(const MethodOptions& options, const Material& material) {

@@ -49,7 +49,7 @@ bool has_own_pressure(const MethodOptions& options, const Material& material);
 template <int Dim>
 std::unique_ptr<Model<Dim>> build_model(const Scene<Dim>& scene, const std::string& file);
 
-/// True if the name, its group (the text before the dot) or "solid/" and either is the selector's part.
+/// True if the name, one of its groups (the text before a dot) or "solid/" and any of these is the selector's part.
 bool matches_part(const std::string& selected, const std::string& solid, const std::string& part);
 
 }  // namespace sem

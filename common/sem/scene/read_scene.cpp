@@ -24,7 +24,7 @@ void describe_material(Fields& fields, Material& m) {
 
 template <int Dim>
 void describe_part(Fields& fields, ScenePart<Dim>& part) {
-  fields.text("name", part.name, "unique in the solid; the text before a dot is the part's group");
+  fields.text("name", part.name, "unique in the solid; the text before any dot is a group that the part belongs to");
   auto& shape = part.shape;
   for (int axis = 0; axis < Dim - 1; ++axis) {
     const std::string suffix = DimTraits<Dim>::parameter_suffix[axis];
@@ -55,14 +55,27 @@ void describe_part(Fields& fields, ScenePart<Dim>& part) {
 }
 
 template <int Dim>
+void describe_named_shape(Fields& fields, std::vector<ScenePart<Dim>>& parts, const ShapeLibrary<Dim>& shapes) {
+  std::string name;
+  fields.text("name", name, "put before the names of the shape's parts: \"handle\" and \"side.2\" make \"handle.side.2\"");
+  const size_t first = parts.size();
+  shapes(fields, parts);
+  for (size_t i = first; i < parts.size() && !name.empty(); ++i) parts[i].name = name + '.' + parts[i].name;
+}
+
+template <int Dim>
 void describe_solid(Fields& fields, SceneSolid<Dim>& solid, const ShapeLibrary<Dim>& shapes) {
   fields.text("name", solid.name, "unique in the scene");
   fields.object("material", "of the whole solid", [&](Fields& f) { describe_material(f, solid.material); });
   fields.items<ScenePart<Dim>>("parts", solid.parts, "the NURBS that bound the solid, in any order and orientation",
                                describe_part<Dim>);
   if (shapes && fields.optional("shape", false))
-    fields.object("shape", "parts from the shape library, in place of or beside 'parts'",
-                  [&](Fields& f) { shapes(f, solid.parts); });
+    fields.object("shape", "parts from the shape library, beside 'parts' or in their place",
+                  [&](Fields& f) { describe_named_shape(f, solid.parts, shapes); });
+  if (shapes && fields.optional("shapes", false))
+    fields.list("shapes", "several of them, as in 'shape'", 0, [](int) {}, [&](Fields& f, int) {
+      if (!f.documenting()) describe_named_shape(f, solid.parts, shapes);
+    });
   if (!fields.reading()) return;
   if (solid.parts.empty()) fields.reject(nullptr, "no part", "'parts' or a 'shape'");
   std::set<std::string> names;
@@ -278,10 +291,12 @@ void check_names(Fields& fields, const Scene<Dim>& scene) {
   for (const auto& solid : scene.solids) {
     solids.push_back(solid.name);
     for (const auto& part : solid.parts) {
-      const std::string group = part.name.substr(0, part.name.find('.'));
-      for (const auto& name : {part.name, group})
+      for (size_t end = part.name.find('.');; end = part.name.find('.', end + 1)) {
+        const std::string name = part.name.substr(0, end);
         for (const auto& known : {name, solid.name + "/" + name})
           if (std::find(parts.begin(), parts.end(), known) == parts.end()) parts.push_back(known);
+        if (end == std::string::npos) break;
+      }
     }
   }
   const auto check_name = [&](const std::string& name, const std::vector<std::string>& known, const std::string& where) {

@@ -15,7 +15,7 @@ namespace sem {
 
 template <int Dim>
 struct ScenePart {
-  std::string name;  ///< "left.1"; the text before the dot is the part's group
+  std::string name;  ///< "left.1"; the text before a dot is a group
   Nurbs<Dim - 1, Dim> shape;
   std::optional<Material> material;  ///< in place of the solid's, where this part's distance weight (theta) is the largest
 };

@@ -1,5 +1,5 @@
 #pragma once
-// The scenes that come with the program, from src2d/scenes/*.json.
+// The scenes that come with a program, from its folder scenes/*.json.
 
 #include <string>
 #include <vector>
@@ -12,7 +12,12 @@ struct BuiltinScene {
   std::string text;         ///< the file, comments included
 };
 
-/// All of them; the default scene first.
+/// All of a dimension; the default scene first. Defined by the library that sem_add_scenes (CMake) makes.
+template <int Dim>
 const std::vector<BuiltinScene>& builtin_scenes();
+template <>
+const std::vector<BuiltinScene>& builtin_scenes<2>();
+template <>
+const std::vector<BuiltinScene>& builtin_scenes<3>();
 
 }  // namespace sem

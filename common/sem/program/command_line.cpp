@@ -1,0 +1,98 @@
+#include "sem/program/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+
+#include "sem/base/version.h"
+#include "sem/scene/fields.h"
+
+namespace sem {
+namespace {
+
+constexpr const char* commands_text = R"(
+  PROGRAM run SCENE [--out DIR] [--set key=value ...]   simulate: frames, history.csv, summary.json
+  PROGRAM run SCENE --resume [--out DIR]                go on from the last checkpoint
+  PROGRAM info SCENE [--json]                           sizes, accuracy and all settings, without running
+  PROGRAM scenes                                        the built-in scenes, a line each
+  PROGRAM export NAME > mine.json                       a built-in scene, to start your own from
+  PROGRAM schema                                        every key of a scene file, with units and defaults
+
+SCENE is a JSON file or the name of a built-in scene; try: PROGRAM run )";
+
+std::string overview(const std::string& program, const std::string& about,
+                     const std::string& first_scene) {
+  const std::string placeholder = "PROGRAM";
+  std::string text = commands_text;
+  for (size_t at; (at = text.find(placeholder)) != std::string::npos;)
+    text.replace(at, placeholder.size(), program);
+  return program + ": " + about + "\n" + text + first_scene + "\n";
+}
+
+}  // namespace
+
+InputError unknown_name(const std::string& field, const std::string& word, const std::string& what,
+                        const std::vector<std::string>& names, const std::string& allowed) {
+  const std::string close = closest_name(word, names);
+  return InputError("", field, "'" + word + "', " + what,
+                    (close.empty() ? "" : "'" + close + "' (did you mean that?), or ") + allowed);
+}
+
+CommandLine read_command_line(const std::string& program, const std::string& about,
+                              const std::string& first_scene, int argc, char** argv) {
+  CommandLine line;
+  if (argc == 1) {
+    std::cout << overview(program, about, first_scene);
+    return line;
+  }
+  CLI::App app{program + ": " + about, program};
+  app.set_version_flag("--version", program + " " + version + " (" + build_type + ")");
+  app.require_subcommand(1);
+  std::vector<std::string> more_overrides;
+  bool no_frames = false;
+  const auto add_overrides = [&](CLI::App* command) {
+    command
+        ->add_option("--set", line.overrides,
+                     "key=value, as in analysis.time_step=0.005; any number of them")
+        ->allow_extra_args(false);
+    command->add_option("OVERRIDES", more_overrides, "more of them, with or without another --set");
+  };
+  auto* run_command = app.add_subcommand("run", "simulate a scene");
+  run_command->add_option("SCENE", line.scene, "JSON file or built-in name")->required();
+  run_command->add_option("--out", line.folder, "output folder; default out/SCENE");
+  run_command->add_flag("--resume", line.resume, "go on from the folder's checkpoint");
+  run_command->add_flag("--no-frames", no_frames, "numbers only");
+  add_overrides(run_command);
+  auto* info_command =
+      app.add_subcommand("info", "sizes, accuracy and settings of a scene, without running it");
+  info_command->add_option("SCENE", line.scene, "JSON file or built-in name")->required();
+  info_command->add_flag("--json", line.json, "everything, parts included");
+  add_overrides(info_command);
+  auto* scenes_command = app.add_subcommand("scenes", "list the built-in scenes");
+  auto* export_command = app.add_subcommand("export", "print a built-in scene");
+  export_command->add_option("NAME", line.scene, "of a built-in scene")->required();
+  app.add_subcommand("schema", "print every key of a scene file");
+  const std::string first = argv[1];
+  std::vector<std::string> commands;
+  for (const auto* command : app.get_subcommands([](CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
+  if (first[0] != '-' && std::find(commands.begin(), commands.end(), first) == commands.end())
+    throw unknown_name("COMMAND", first, "no command", commands,
+                       "run, info, scenes, export or schema");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    line.exit_code = app.exit(error) == 0 ? 0 : 2;
+    return line;
+  }
+  line.overrides.insert(line.overrides.end(), more_overrides.begin(), more_overrides.end());
+  line.frames = !no_frames;
+  line.command = *run_command      ? Command::run
+                 : *info_command   ? Command::info
+                 : *scenes_command ? Command::scenes
+                 : *export_command ? Command::export_scene
+                                   : Command::schema;
+  return line;
+}
+
+}  // namespace sem

@@ -1,0 +1,163 @@
+#include "sem/program/program.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "sem/base/error.h"
+#include "sem/draw/frame_writer.h"
+#include "sem/program/command_line.h"
+#include "sem/program/progress.h"
+#include "sem/scene/fields.h"
+#include "sem/scene/files.h"
+#include "sem/scene/info.h"
+
+namespace sem {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string frame_name(int frame) {
+  char name[32];
+  std::snprintf(name, sizeof name, "frame_%05d.png", frame);
+  return name;
+}
+
+// Frames of an earlier, longer run into the same folder.
+void remove_stale_frames(const fs::path& folder, int n_frames) {
+  std::error_code error;
+  for (int frame = n_frames; fs::remove(folder / frame_name(frame), error); ++frame) {
+  }
+}
+
+struct SceneText {
+  std::string text, file;
+};
+
+template <int Dim>
+class Commands {
+ public:
+  Commands(const Program<Dim>& program, const CommandLine& line) : program_(program), line_(line) {}
+
+  int call() const {
+    switch (line_.command) {
+      case Command::none:
+        return line_.exit_code;
+      case Command::run:
+        return run();
+      case Command::info:
+        return info();
+      case Command::scenes:
+        return list_scenes();
+      case Command::export_scene:
+        return export_scene();
+      case Command::schema:
+        std::cout << document_scene<Dim>(program_.shapes);
+    }
+    return 0;
+  }
+
+ private:
+  // The text of a built-in scene; throws for a name that is none.
+  const std::string& builtin_text(const char* field, const char* what, const char* other) const {
+    std::vector<std::string> names;
+    for (const auto& builtin : program_.scenes) {
+      if (builtin.name == line_.scene) return builtin.text;
+      names.push_back(builtin.name);
+    }
+    throw unknown_name(field, line_.scene, what, names,
+                       other + ("a name that '" + program_.name + " scenes' lists"));
+  }
+
+  SceneText find_scene() const {
+    std::error_code error;
+    if (fs::is_regular_file(line_.scene, error)) return {read_file(line_.scene), line_.scene};
+    return {builtin_text("SCENE", "neither a file nor a built-in scene", "a JSON file or "),
+            line_.scene};
+  }
+
+  Scene<Dim> load(const SceneText& source) const {
+    Scene<Dim> scene = read_scene<Dim>(source.text, source.file, program_.shapes, line_.overrides);
+    if (scene.name.empty()) scene.name = fs::path(source.file).stem().string();
+    return scene;
+  }
+
+  int run() const {
+    const SceneText source = find_scene();
+    const Scene<Dim> scene = load(source);
+    const std::string folder =
+        line_.folder.empty() ? "out/" + fs::path(source.file).stem().string() : line_.folder;
+    const fs::path frames = fs::path(folder) / "frames";
+    const bool draw = line_.frames && program_.painter;
+    Painter<Dim> paint;
+    FrameWriter writer;
+    FrameCallback<Dim> on_frame;
+    if (draw)
+      on_frame = [&](const Model<Dim>& model, const State& state, int frame) {
+        if (!paint) {
+          make_folder(frames.string());
+          paint = program_.painter(scene);
+        }
+        writer.write((frames / frame_name(frame)).string(), paint(model, state));
+      };
+    RunResult result;
+    {
+      Progress progress;  // ends its line before the results are printed
+      result = run_scene(scene, {source.file, folder, line_.resume, std::ref(progress)}, on_frame);
+      writer.finish();
+    }
+    if (draw) remove_stale_frames(frames, result.n_frames);
+    std::cout << scene.name << ": " << result.message << "\n"
+              << "wrote " << folder << "/: history.csv, summary.json, final_state.json";
+    if (draw && result.n_frames > 0) std::cout << ", frames/ (" << result.n_frames << " of them)";
+    if (!program_.painter) std::cout << " (no frames: " << program_.name << " does not draw)";
+    std::cout << "\n" << result.report;
+    return result.ok ? 0 : 1;
+  }
+
+  int info() const {
+    const SceneText source = find_scene();
+    const Scene<Dim> scene = load(source);
+    std::cout << model_info(scene, *build_model(scene, source.file), line_.json, source.file);
+    if (!line_.json && !program_.painter)
+      std::cout << "frames: none, " << program_.name << " does not draw\n";
+    return 0;
+  }
+
+  int list_scenes() const {
+    for (const auto& builtin : program_.scenes)
+      std::printf("%-18s %s\n", builtin.name.c_str(), builtin.description.c_str());
+    return 0;
+  }
+
+  int export_scene() const {
+    std::cout << builtin_text("NAME", "no built-in scene", "");
+    return 0;
+  }
+
+  const Program<Dim>& program_;
+  const CommandLine& line_;
+};
+
+}  // namespace
+
+template <int Dim>
+int run_program(const Program<Dim>& program, int argc, char** argv) {
+  int code = 2;
+  try {
+    const CommandLine line =
+        read_command_line(program.name, program.about, program.scenes.front().name, argc, argv);
+    return Commands<Dim>(program, line).call();
+  } catch (const InputError& error) {
+    std::cerr << program.name << ": " << error.what() << "\n";
+  } catch (const std::exception& error) {
+    std::cerr << program.name << ": " << error.what() << "\n";
+    code = 1;
+  }
+  return code;
+}
+
+template int run_program<2>(const Program<2>&, int, char**);
+template int run_program<3>(const Program<3>&, int, char**);
+
+}  // namespace sem
