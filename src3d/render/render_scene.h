@@ -23,6 +23,7 @@ struct Mesh {
   std::vector<Vec<3>> position;
   std::vector<Vec<3>> normal;  ///< unit, one a position
   std::vector<std::array<int, 3>> triangles;
+  std::vector<Param<2>> uv = {};  ///< parameters of the positions on their surface; empty: none
   Color color = {0.8, 0.8, 0.8};  ///< opacity below 1: translucent, more opaque at grazing angles
   std::vector<Color> colors =
       {};                    ///< one a position, in place of color (whose opacity still counts)

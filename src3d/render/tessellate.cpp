@@ -51,7 +51,7 @@ int cells_along(const std::function<Vec<3>(double)>& X, const Flatness& flatness
 // Cells of a piece along both directions such that its lines and the twist of its cells keep to the
 // tolerance.
 std::array<int, 2> cells_of(const Surface& surface, const Piece& piece, const Flatness& flatness) {
-  std::array<int, 2> n = {1, 1};
+  std::array<int, 2> n = {flatness.least_cells, flatness.least_cells};
   constexpr int n_lines = 9;
   for (int k = 0; k < n_lines; ++k) {
     const double other = double(k) / (n_lines - 1);
@@ -76,6 +76,12 @@ std::array<int, 2> cells_of(const Surface& surface, const Piece& piece, const Fl
   return n;
 }
 
+// A grid on a piece: parameters (u fastest), cells along u and v.
+struct PieceGrid {
+  std::vector<Param<2>> u;
+  int n_u = 1, n_v = 1;
+};
+
 // The piece's four edges: which parameter runs, the value of the other one.
 struct Edge {
   int axis;
@@ -92,7 +98,8 @@ void straighten(const Surface& surface, const Piece& piece, const Edge& edge, co
                 const Flatness& flatness, Vec<3>* X) {
   const auto line = [&](double s) { return point(surface, on_edge(piece, edge, s)); };
   const int n = edge.axis == 0 ? grid.n_u : grid.n_v,
-            n_edge = std::min(n, cells_along(line, flatness, 0.45)), step = n / n_edge;
+            n_edge = std::min(n, std::max(flatness.least_cells, cells_along(line, flatness, 0.45))),
+            step = n / n_edge;
   const int stride = edge.axis == 0 ? 1 : grid.n_u + 1,
             first = edge.axis == 0 ? edge.side * grid.n_v * (grid.n_u + 1) : edge.side * grid.n_u;
   for (int k = 0; k < n; k += step)
@@ -170,18 +177,10 @@ Vec<3> unit_normal(const Surface& surface, const Param<2>& u) {
   return near.norm() > 0 ? Vec<3>(near.normalized()) : Vec<3>(0, 0, 1);
 }
 
-std::vector<PieceGrid> piece_grids(const Surface& surface, const Flatness& flatness) {
-  std::vector<PieceGrid> grids;
-  for (const auto& piece : surface.pieces) grids.push_back(grid_of(surface, piece, flatness));
-  return grids;
-}
-
 Mesh tessellate(const Surface& surface, const Flatness& flatness) {
   Mesh mesh;
-  const auto grids = piece_grids(surface, flatness);
-  for (std::size_t p = 0; p < grids.size(); ++p) {
-    const auto& grid = grids[p];
-    const auto& piece = surface.pieces[p];
+  for (const auto& piece : surface.pieces) {
+    const PieceGrid grid = grid_of(surface, piece, flatness);
     const int base = int(mesh.position.size()), row = grid.n_u + 1;
     const Param<2> size = piece.upper - piece.lower;
     for (const auto& u : grid.u) {
@@ -191,6 +190,7 @@ Mesh tessellate(const Surface& surface, const Flatness& flatness) {
       const Vec<3> n = unit_normal(surface, u), own = unit_normal(surface, inside);
       mesh.normal.push_back(n.dot(own) > 1 - 1e-6 ? n : own);
     }
+    mesh.uv.insert(mesh.uv.end(), grid.u.begin(), grid.u.end());
     for (const auto& edge : edges)
       straighten(surface, piece, edge, grid, flatness, &mesh.position[base]);
     for (int j = 0; j < grid.n_v; ++j)

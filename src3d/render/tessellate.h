@@ -8,6 +8,7 @@ namespace sem::render {
 
 struct Flatness {
   double distance;         ///< m: how far triangles and lines may be from the surface
+  int least_cells = 1;     ///< a power of two: along u and v of every piece, for colours
   double max_turn = 0.35;  ///< radians between the normals of neighbouring vertices
 };
 
@@ -17,14 +18,6 @@ struct Flatness {
 /// edge (as the same curve, run either way) leave no crack. Normals are du x dv, exact; at a
 /// collapsed edge their limit.
 Mesh tessellate(const PreparedNurbs<2, 3>& surface, const Flatness& flatness);
-
-/// One piece's grid, for what else is evaluated at its vertices: parameters (u fastest) and counts.
-struct PieceGrid {
-  std::vector<Param<2>> u;  ///< (n_u + 1) x (n_v + 1)
-  int n_u = 1, n_v = 1;     ///< cells
-};
-/// The grids of all pieces, in the order in which tessellate appends their vertices.
-std::vector<PieceGrid> piece_grids(const PreparedNurbs<2, 3>& surface, const Flatness& flatness);
 
 /// Unit normal along du x dv. Where the derivatives vanish or are parallel (poles, collapsed edges)
 /// its limit from inside the piece.
