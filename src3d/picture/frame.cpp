@@ -82,8 +82,12 @@ class SolidPainter::Drawing {
     result_.ground = lowest;
     const auto camera = render::framing(corners, direction_of(setup_.up),
                                         Box<2>{Vec<2>::Zero(), Vec<2>(width, height)});
-    canvas_.image(setup_.renderer.render(result_, camera, render::frame_quality(width, height)),
-                  area_);
+    auto options = render::frame_quality(width, height);
+    // Mostly light from everywhere, so that colours can be compared with the bar.
+    options.lighting.ambient = 0.66;
+    options.lighting.key = 0.42;
+    options.lighting.gloss = 0.03;
+    canvas_.image(setup_.renderer.render(result_, camera, options), area_);
     triad(camera);
     picture::draw_titles(canvas_, area_, scene_.name, scene_.analysis, scene_.output, state_,
                          n_inverted_);

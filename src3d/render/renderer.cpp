@@ -113,7 +113,7 @@ class Picture {
   Image draw() {
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
-    look_up_visibility();
+    if (receives_shadows()) look_up_visibility();
     const Target picture(width_, height_, {GL_RGBA8}, Target::Depth::plain);
     picture.bind();
     glClearColor(1, 1, 1, 1);
@@ -153,6 +153,11 @@ class Picture {
   bool has_ground() const {
     return scene_.ground && (camera_.parallel ? camera_.back.dot(scene_.up) > 0
                                               : camera_.eye.dot(scene_.up) > *scene_.ground);
+  }
+
+  bool receives_shadows() const {
+    return has_ground() || std::any_of(scene_.meshes.begin(), scene_.meshes.end(),
+                                       [](const Mesh& m) { return m.lit && m.color.a >= 1; });
   }
 
   void draw_batches(const Program& program, bool translucent) const {
@@ -296,7 +301,7 @@ class Picture {
   }
 
   void set_visibility(const Program& program) const {
-    visibility_->bind_color(0, 0);
+    if (visibility_) visibility_->bind_color(0, 0);
     program.set("visibility", 0);
     program.set("depth_row", depth_row());
     program.set("to_visibility",

@@ -82,17 +82,18 @@ void main() {
   int cell = (pixel.x & 3) + 4 * (pixel.y & 3);
   float angle = 2.399963 * cell, reach = facing.w * sqrt((cell + 0.5) / 16);
   vec3 aside = reach * (cos(angle) * across + sin(angle) * cross(n, across));
+  float wide = 0.05 + 0.3 * max(length(at.xyz) - 1, 0.0);  // of the sky, whose directions are few
   vec2 sum = vec2(0);
   for (int i = 0; i < n_lights; ++i) {
     float cosine = dot(n, toward[i].xyz);
     if (cosine <= 0) continue;
     // Off the surface, farther where the light grazes it: a surface casts no shadow on itself.
     vec3 from = at.xyz + offset * (1 + 2 * sqrt(1 - cosine * cosine)) * n +
-                (toward[i].w == 0 ? 0.01 : 0.05) * aside;
+                (toward[i].w == 0 ? 0.01 : wide) * aside;
     vec3 q = (to_light[i] * vec4(from, 1)).xyz;
     float visible = 1;
     if (all(greaterThan(q.xy, vec2(tile_border))) && all(lessThan(q.xy, vec2(1 - tile_border))))
-      visible = texture(maps, vec3((q.xy + vec2(i % n_side, i / n_side)) / n_side, q.z));
+      visible = texture(maps, vec3((q.xy + vec2(i % n_side, i / n_side)) / n_side, min(q.z, 1.0)));
     if (toward[i].w == 0) sum.x += visible * key_weight;
     else sum.y += visible * toward[i].w * cosine;
   }

@@ -162,9 +162,7 @@ Box<Dim> motion_box(const Scene<Dim>& scene, const Model<Dim>& model) {
   const Vec<Dim> pivot = (held.lower + held.upper) / 2;
   if (held.diagonal() < 0.05 * size) return swing_box(scene, rest, pivot);
   Box<Dim> box = sagging_box(model, rest, pivot);
-  enlarge(box, 0.12 * size);
-  enlarge(rest, 0.3 * size);
-  box.include(rest);
+  enlarge(box, 0.15 * size);
   return box;
 }
 

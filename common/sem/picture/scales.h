@@ -7,8 +7,8 @@
 namespace sem {
 
 /// Room for the motion to be expected, m. Statics and modes: the rest shape with a margin. Dynamics
-/// without pins: the rest shape along its ballistic path. With pins that hold a region: a wide
-/// margin, and twice the linear static displacement as far as the body reaches from its pins. Hung
+/// without pins: the rest shape along its ballistic path. With pins that hold a region:
+/// twice the linear static displacement, as far as the body reaches from its pins, and a margin. Hung
 /// by a point: all that it can reach when it turns about it, no higher than at rest.
 template <int Dim>
 Box<Dim> motion_box(const Scene<Dim>& scene, const Model<Dim>& model);
