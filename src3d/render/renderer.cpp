@@ -335,27 +335,34 @@ class Picture {
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(scene_.spheres.size()));
   }
 
-  // First what is hidden, faint, then what is seen.
+  // First what is hidden, faint; then what is seen, later lines over earlier ones; then their depths,
+  // for what is translucent.
   void draw_lines() const {
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     gl_.line->use();
-    for (const bool hidden : {true, false})
-      for (const auto& lines : scene_.lines) {
-        if (hidden && lines.hidden <= 0) continue;
-        const auto vertices =
-            widened(lines, camera_, ball_, to_clip_, options_.width, options_.height);
-        if (vertices.empty()) continue;
-        const VertexArray array(vertices, {4, 4});
-        array.bind();
-        glDepthFunc(hidden ? GL_GREATER : GL_LESS);
-        glDepthMask(!hidden);
-        gl_.line->set("opacity", hidden ? float(lines.hidden) : 1.f);
-        glDrawArrays(GL_TRIANGLES, 0, GLsizei(vertices.size() / 8));
-      }
+    for (const auto& [depth_test, is_depth] :
+         {std::pair(GL_GREATER, false), {GL_LESS, false}, {GL_LESS, true}}) {
+      glDepthFunc(GLenum(depth_test));
+      glDepthMask(is_depth);
+      glColorMask(!is_depth, !is_depth, !is_depth, !is_depth);
+      for (const auto& lines : scene_.lines)
+        draw(lines, depth_test == GL_GREATER ? float(lines.hidden) : 1.f);
+    }
     glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_LESS);
     glDisable(GL_BLEND);
+  }
+
+  void draw(const Lines& lines, float opacity) const {
+    if (opacity <= 0) return;
+    const auto vertices = widened(lines, camera_, ball_, to_clip_, options_.width, options_.height);
+    if (vertices.empty()) return;
+    const VertexArray array(vertices, {4, 4});
+    array.bind();
+    gl_.line->set("opacity", opacity);
+    glDrawArrays(GL_TRIANGLES, 0, GLsizei(vertices.size() / 8));
   }
 
   // Depth peeling: layer by layer from the front, each under those before it.
