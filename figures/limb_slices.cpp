@@ -13,11 +13,10 @@ namespace sem::figures {
 namespace {
 
 constexpr double height = 0.6, level = 0.3;  // m: of the solid, of the slice
-constexpr int n_cells = 160;
-constexpr DistanceWeight variants[] = {DistanceWeight::published, DistanceWeight::draft,
-                                       DistanceWeight::distance_only};
-const std::vector<std::string> columns = {"w_published", "w_draft", "w_distance_only"};
-const std::string titles[] = {"published", "draft", "distance only"};
+constexpr int n_cells = 90;
+constexpr DistanceWeight variants[] = {DistanceWeight::distance_only, DistanceWeight::sided};
+const std::vector<std::string> columns = {"w_distance_only", "w_sided"};
+const std::string titles[] = {"distance only", "sided distance"};
 
 // The starfish of the teaser with two curves an arm, made thick.
 Discretization<3> thick_starfish() {
@@ -64,12 +63,12 @@ Data compute() {
   add_surfaces(data, parts);
   data.add("shown", {"part", "level"}).add({double(part), level});
   const Slice slice = slice_inside(body, level, n_cells);
-  Eigen::MatrixXd w(slice.position.cols(), 3);
-  for (int v = 0; v < 3; ++v) w.col(v) = weight_field(body, slice.position, variants[v]).col(part);
-  auto& points = data.add("slice", {"x", "y", "z", columns[0], columns[1], columns[2]});
+  Eigen::MatrixXd w(slice.position.cols(), 2);
+  for (int v = 0; v < 2; ++v) w.col(v) = weight_field(body, slice.position, variants[v]).col(part);
+  auto& points = data.add("slice", {"x", "y", "z", columns[0], columns[1]});
   for (Eigen::Index k = 0; k < w.rows(); ++k)
-    points.add({slice.position(0, k), slice.position(1, k), slice.position(2, k), w(k, 0), w(k, 1),
-                w(k, 2)});
+    points.add(
+        {slice.position(0, k), slice.position(1, k), slice.position(2, k), w(k, 0), w(k, 1)});
   auto& triangles = data.add("triangles", {"a", "b", "c"});
   for (const auto& t : slice.triangles) triangles.add({double(t[0]), double(t[1]), double(t[2])});
   return data;
@@ -117,7 +116,7 @@ void draw(Plot& plot, const Data& data) {
   for (int k = 0; k < points.n_rows(); ++k)
     for (const double z : {0.0, points["z"][k]})
       box.include(Vec<3>(points["x"][k], points["y"][k], z));
-  for (int v = 0; v < 3; ++v) {
+  for (int v = 0; v < 2; ++v) {
     Panel& panel = plot.panel(0, v);
     panel.title = titles[v];
     draw_view(panel, {[data, v, scale](double point) { return scene_of(data, v, scale, point); },
@@ -132,10 +131,10 @@ void draw(Plot& plot, const Data& data) {
 Figure limb_slices() {
   return {"limb_slices",
           "Blending weight of one side of an arm (orange) of a thick starfish, on a slice half-way "
-          "up, the upper half removed: the published ray stops at the arm's own surface; the "
-          "draft's and plain distance reach across the gap into the next arm",
+          "up, the upper half removed: plain distance reaches across the gap into the next arm, "
+          "sided distance does not",
           7,
-          2.4,
+          2.7,
           compute,
           draw};
 }

@@ -91,7 +91,7 @@ render::RenderScene scene_of(const Data& data, double point) {
     scene.lines.push_back(
         {{{X, control}}, colors::viridis(share), (0.4 + 1.8 * share) * point, 0.35});
   }
-  scene.spheres.push_back({X, 0.05, colors::okabe_ito[1]});
+  scene.spheres.push_back({X, 0.075, colors::okabe_ito[1]});
   double lowest = p(2, 0);
   for (Eigen::Index c = 0; c < p.cols(); ++c) lowest = std::min(lowest, p(2, c));
   scene.ground = lowest - 0.1;
@@ -131,7 +131,7 @@ void draw(Plot& plot, const Data& data) {
   draw_view(plot.panel(0, 0), {[data](double point) { return scene_of(data, point); },
                                framed(parts),
                                {.from = {-0.35, -1, 0.75}},
-                               {{X, "x(u, v) = J(u, v) p", {25, -80}, true}}});
+                               {{X, "x(u, v) = J(u, v) p", {25, -62}, true}}});
   draw_domain(plot.panel(0, 1), data);
 }
 

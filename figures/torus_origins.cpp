@@ -38,7 +38,7 @@ Data compute() {
   return data;
 }
 
-Color origin_color(int origin) { return colors::okabe_ito[origin == 0 ? 0 : 4]; }
+Color origin_color(int origin) { return colors::okabe_ito[origin == 0 ? 2 : 3]; }
 
 render::RenderScene scene_of(const Data& data, double point) {
   const auto parts = surfaces_of(data);
@@ -58,14 +58,13 @@ render::RenderScene scene_of(const Data& data, double point) {
   return scene;
 }
 
-// A point of the part for its name: of the upper parts the top, of the lower ones the side in
-// front.
-Vec<3> place_of_name(const Nurbs<2, 3>& part, int i) {
-  const auto prepared = prepare(part);
+// Where the parts' names stand, as shares of their parameters: on what is seen of each.
+constexpr double places[4][2] = {{0.62, 0.35}, {0.62, 0.35}, {0.62, 0.12}, {0.62, 0.8}};
+
+Vec<3> place_of_name(const Nurbs<2, 3>& part, const double (&share)[2]) {
   const Interval u = domain(part, 0), v = domain(part, 1);
-  const double turn = i % 2 == 0 ? 0.62 : 0.62;
-  return sem::point(prepared, Param<2>(u.lower + turn * (u.upper - u.lower),
-                                       v.lower + (i < 2 ? 0.35 : 0.8) * (v.upper - v.lower)));
+  return sem::point(prepare(part), Param<2>(u.lower + share[0] * (u.upper - u.lower),
+                                            v.lower + share[1] * (v.upper - v.lower)));
 }
 
 void draw(Plot& plot, const Data& data) {
@@ -76,7 +75,7 @@ void draw(Plot& plot, const Data& data) {
                  framed(parts),
                  {.from = {-0.25, -1, 0.8}}};
   for (std::size_t i = 0; i < parts.size(); ++i)
-    view.labels.push_back({place_of_name(parts[i], int(i)), std::to_string(i + 1)});
+    view.labels.push_back({place_of_name(parts[i], places[i % 4]), std::to_string(i + 1)});
   draw_view(plot.panel(0, 0), view);
   Panel& matrix = plot.panel(0, 1);
   draw_projection(matrix, data, "entries");

@@ -335,8 +335,8 @@ class Picture {
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(scene_.spheres.size()));
   }
 
-  // First what is hidden, faint; then what is seen, later lines over earlier ones; then their depths,
-  // for what is translucent.
+  // First what is hidden, faint; then what is seen, later lines over earlier ones; then the depths
+  // of opaque ones, for what is translucent.
   void draw_lines() const {
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
@@ -347,7 +347,8 @@ class Picture {
       glDepthMask(is_depth);
       glColorMask(!is_depth, !is_depth, !is_depth, !is_depth);
       for (const auto& lines : scene_.lines)
-        draw(lines, depth_test == GL_GREATER ? float(lines.hidden) : 1.f);
+        if (!is_depth || lines.color.a >= 1)
+          draw(lines, depth_test == GL_GREATER ? float(lines.hidden) : 1.f);
     }
     glDepthMask(GL_TRUE);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

@@ -201,7 +201,7 @@ void main() {
   vec2 seen = seen_at(X, up);
   float key_share = key * max(dot(up, to_key), 0.0);
   float light = (ambient * min(seen.y, 1.0) + key_share * seen.x) / (ambient + key_share);
-  float far = smoothstep(1.6, 3.2, distance(X, ground_center));
+  float far = smoothstep(1.0, 2.1, distance(X, ground_center));
   color = vec4(srgb_of(vec3(mix(light, 1.0, far))), 1);
 }
 )";
