@@ -8,6 +8,7 @@ namespace sem::figures {
 const std::vector<Figure>& all_figures() {
   static const std::vector<Figure> figures = {teaser(),
                                               nurbs_curve(),
+                                              nurbs_surface(),
                                               error_energy(),
                                               distance_construction(),
                                               distance_weights(),
@@ -26,7 +27,10 @@ const std::vector<Figure>& all_figures() {
                                               nonzeros_step_time(),
                                               pruning(),
                                               integrators(),
-                                              release()};
+                                              release(),
+                                              solid_quadrature(),
+                                              limb_slices(),
+                                              torus_origins()};
   return figures;
 }
 

@@ -46,6 +46,7 @@ Plot plot_of(const Figure& figure, const Data& data);
 
 Figure teaser();
 Figure nurbs_curve();
+Figure nurbs_surface();
 Figure error_energy();
 Figure distance_construction();
 Figure distance_weights();
@@ -65,5 +66,8 @@ Figure nonzeros_step_time();
 Figure pruning();
 Figure integrators();
 Figure release();
+Figure solid_quadrature();
+Figure limb_slices();
+Figure torus_origins();
 
 }  // namespace sem::figures

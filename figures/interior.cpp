@@ -15,8 +15,9 @@ Points<2> as_points(const std::vector<Vec<2>>& list) {
   return points;
 }
 
-DistanceWeights<2> weights_of(const Discretization<2>& body, const Points<2>& position,
-                              DistanceWeight variant) {
+template <int Dim>
+DistanceWeights<Dim> weights_of(const Discretization<Dim>& body, const Points<Dim>& position,
+                                DistanceWeight variant) {
   WeightOptions options = body.options.weights;
   options.variant = variant;
   return distance_weights(
@@ -58,10 +59,64 @@ Eigen::MatrixXd theta_field(const Discretization<2>& body, const Points<2>& posi
   return dense(theta.n_parts, theta.begin, theta.part, theta.theta);
 }
 
-Eigen::MatrixXd weight_field(const Discretization<2>& body, const Points<2>& position,
+template <int Dim>
+Eigen::MatrixXd weight_field(const Discretization<Dim>& body, const Points<Dim>& position,
                              DistanceWeight variant) {
   const auto w = blending_weights(weights_of(body, position, variant), body.boundary, position);
   return dense(w.n_parts, w.begin, w.part, w.w);
+}
+
+template Eigen::MatrixXd weight_field(const Discretization<2>&, const Points<2>&, DistanceWeight);
+template Eigen::MatrixXd weight_field(const Discretization<3>&, const Points<3>&, DistanceWeight);
+
+Slice slice_inside(const Discretization<3>& body, double z, int n_cells) {
+  const Box<3>& box = body.boundary.box;
+  const Vec<3> size = box.upper - box.lower;
+  const double step = std::max(size[0], size[1]) / n_cells;
+  const int n_x = int(std::ceil(size[0] / step)) + 1, n_y = int(std::ceil(size[1] / step)) + 1;
+  const auto is_inside = [&](const Vec<3>& X) { return inside(body.boundary, body.loops, X); };
+  const auto node = [&](int i, int j) {
+    return Vec<3>(box.lower[0] + (i - 0.5) * step, box.lower[1] + (j - 0.5) * step, z);
+  };
+  std::vector<Vec<3>> points;
+  std::map<std::array<int, 3>, int> made;  // node (i, j, -1), or where the edge after it is cut
+  const auto add = [&](const std::array<int, 3>& key, const Vec<3>& X) {
+    const auto [at, is_new] = made.try_emplace(key, int(points.size()));
+    if (is_new) points.push_back(X);
+    return at->second;
+  };
+  std::vector<char> is_in((n_x + 1) * (n_y + 1));
+  for (int j = 0; j <= n_y; ++j)
+    for (int i = 0; i <= n_x; ++i) is_in[j * (n_x + 1) + i] = is_inside(node(i, j));
+  const auto in = [&](int i, int j) { return is_in[j * (n_x + 1) + i] != 0; };
+  // The last place inside on the edge from node (i, j) along an axis.
+  const auto cut = [&](int i, int j, int axis) {
+    Vec<3> a = node(i, j), b = axis == 0 ? node(i + 1, j) : node(i, j + 1);
+    if (!in(i, j)) std::swap(a, b);
+    for (int k = 0; k < 12; ++k) {
+      const Vec<3> middle = (a + b) / 2;
+      (is_inside(middle) ? a : b) = middle;
+    }
+    return add({i, j, axis}, a);
+  };
+  Slice slice;
+  for (int j = 0; j < n_y; ++j)
+    for (int i = 0; i < n_x; ++i) {
+      const int corner[4][2] = {{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}};
+      const int edge[4][3] = {{i, j, 0}, {i + 1, j, 1}, {i, j + 1, 0}, {i, j, 1}};
+      std::vector<int> polygon;
+      for (int c = 0; c < 4; ++c) {
+        const int *a = corner[c], *b = corner[(c + 1) % 4];
+        if (in(a[0], a[1])) polygon.push_back(add({a[0], a[1], -1}, node(a[0], a[1])));
+        if (in(a[0], a[1]) != in(b[0], b[1]))
+          polygon.push_back(cut(edge[c][0], edge[c][1], edge[c][2]));
+      }
+      for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
+        slice.triangles.push_back({polygon[0], polygon[k], polygon[k + 1]});
+    }
+  slice.position.resize(3, points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) slice.position.col(Eigen::Index(k)) = points[k];
+  return slice;
 }
 
 Quads fitted_quads(const Discretization<2>& body, double size) {

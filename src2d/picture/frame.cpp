@@ -5,7 +5,8 @@
 
 #include "sem/draw/image.h"
 #include "sem/draw/view.h"
-#include "src2d/picture/scales.h"
+#include "sem/picture/notes.h"
+#include "sem/picture/scales.h"
 
 namespace sem {
 namespace {
@@ -13,46 +14,9 @@ namespace {
 using Horizontal = TextStyle::Horizontal;
 using Vertical = TextStyle::Vertical;
 
-constexpr Color ink{0.13, 0.14, 0.18}, label_ink{0.35, 0.36, 0.4}, hairline{0.9, 0.9, 0.92};
-constexpr Color pin_color = colors::okabe_ito[1];
+using picture::ink, picture::label_ink, picture::pin_color;
 
-// Tints of the solids: far from viridis, so that stress stays readable on them.
-Color tint(int solid) {
-  constexpr Color tints[] = {
-      {0.72, 0.80, 0.90, 0.6}, {0.95, 0.80, 0.68, 0.6}, {0.86, 0.78, 0.88, 0.6}};
-  return tints[solid % 3];
-}
-
-// A round number not below the value.
-double round_up(double value) {
-  const double decade = std::pow(10, std::floor(std::log10(value)));
-  for (const double factor : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})
-    if (factor * decade >= value) return factor * decade;
-  return 10 * decade;
-}
-
-struct StressUnit {
-  const char* name;
-  double size;
-};
-
-// The unit in which a stress is a number from 1 to 1000, if there is one.
-StressUnit stress_unit(double stress) {
-  constexpr StressUnit units[] = {{"GPa", 1e9}, {"MPa", 1e6},  {"kPa", 1e3},
-                                  {"Pa", 1},    {"mPa", 1e-3}, {"µPa", 1e-6}};
-  for (const StressUnit& candidate : units)
-    if (stress >= candidate.size) return candidate;
-  return units[5];
-}
-
-std::string formatted(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-// Pixels per unit of length of a canvas of 800 x 600.
-double unit(const Canvas& canvas) { return std::min(canvas.width() / 800, canvas.height() / 600); }
+constexpr Color hairline{0.9, 0.9, 0.92};
 
 }  // namespace
 
@@ -67,7 +31,7 @@ class FramePainter::Drawing {
         setup_(setup),
         p_(control_points(model.discretization.unknowns, state.z)),
         state_(state),
-        unit_(unit(canvas)),
+        unit_(picture::unit(canvas)),
         area_(area(canvas)),
         view_(setup.view, area_) {}
 
@@ -85,8 +49,9 @@ class FramePainter::Drawing {
     pins();
     canvas_.pop_clip();
     canvas_.stroke_box(area_, {.color = label_ink, .width = unit_});
-    titles();
-    if (limit > 0) color_bar(limit);
+    picture::draw_titles(canvas_, area_, scene_.name, scene_.analysis, scene_.output, state_,
+                         n_inverted_);
+    if (limit > 0) picture::draw_stress_bar(canvas_, area_, limit, largest_, scene_.analysis);
   }
 
  private:
@@ -128,7 +93,7 @@ class FramePainter::Drawing {
     for (const auto& region : setup_.outline.regions(p_)) {
       std::vector<Polyline> loops;
       for (const auto& loop : region.loops) loops.push_back(view_.map(loop));
-      canvas_.fill(loops, tint(region.solid));
+      canvas_.fill(loops, picture::tint(region.solid));
     }
   }
 
@@ -204,52 +169,6 @@ class FramePainter::Drawing {
     canvas_.marker(at, MarkerShape::circle, 5 * unit_, pin_color);
   }
 
-  void titles() {
-    const double y = 26 * unit_;
-    canvas_.text({area_.lower[0], y}, scene_.name,
-                 text(17, ink, Horizontal::left, Vertical::baseline));
-    std::string when = "static equilibrium";
-    if (scene_.analysis.kind == AnalysisKind::dynamics) {
-      const double step = std::min(0.01, scene_.analysis.time_step);
-      when = "t = " + tick_label(state_.time, scene_.output.frame_rate > 100 ? step : 0.01) + " s";
-    }
-    if (scene_.analysis.kind == AnalysisKind::modes)
-      when = formatted("mode %.0f", double(state_.step));
-    canvas_.text({area_.upper[0], y}, when, text(17, ink, Horizontal::right, Vertical::baseline));
-    if (n_inverted_ > 0)
-      canvas_.text({(area_.lower[0] + area_.upper[0]) / 2, y},
-                   formatted("%.0f points inverted (gray)", n_inverted_),
-                   text(14, pin_color, Horizontal::center, Vertical::baseline));
-  }
-
-  void color_bar(double limit) {
-    const double left = area_.upper[0] + 22 * unit_;
-    const Box<2> bar{Vec<2>(left, area_.lower[1] + 48 * unit_),
-                     Vec<2>(left + 16 * unit_, area_.upper[1] - 44 * unit_)};
-    const StressUnit stress = stress_unit(limit);
-    canvas_.text({left, area_.lower[1] + 2 * unit_}, "von Mises",
-                 text(14, ink, Horizontal::left, Vertical::top));
-    canvas_.text({left, area_.lower[1] + 21 * unit_}, std::string("stress (") + stress.name + ")",
-                 text(14, ink, Horizontal::left, Vertical::top));
-    canvas_.image(viridis_ramp(), bar);
-    canvas_.stroke_box(bar, {.color = label_ink, .width = unit_});
-    const double end = limit / stress.size, step = nice_step(0, end, 5);
-    for (const double tick : nice_ticks(0, end, 5)) {
-      const double y = bar.upper[1] + tick / end * (bar.lower[1] - bar.upper[1]);
-      canvas_.line({bar.upper[0], y}, {bar.upper[0] + 4 * unit_, y},
-                   {.color = label_ink, .width = unit_});
-      canvas_.text({bar.upper[0] + 8 * unit_, y}, tick_label(tick, step),
-                   text(13, label_ink, Horizontal::left, Vertical::middle));
-    }
-    canvas_.text({left, bar.upper[1] + 16 * unit_},
-                 scene_.analysis.kind == AnalysisKind::dynamics ? "maximum now" : "maximum",
-                 text(12, label_ink, Horizontal::left, Vertical::top));
-    canvas_.text(
-        {left, bar.upper[1] + 32 * unit_},
-        formatted("%.3g ", largest_ < 1e-9 * limit ? 0 : largest_ / stress.size) + stress.name,
-        text(13, ink, Horizontal::left, Vertical::top));
-  }
-
   Canvas& canvas_;
   const Scene<2>& scene_;
   const Model<2>& model_;
@@ -264,17 +183,14 @@ class FramePainter::Drawing {
 };
 
 Box<2> FramePainter::area(const Canvas& canvas) {
-  const double u = unit(canvas);
+  const double u = picture::unit(canvas);
   return {Vec<2>(66, 40) * u, Vec<2>(canvas.width() - 124 * u, canvas.height() - 54 * u)};
 }
 
 void FramePainter::draw(Canvas& canvas, const Model<2>& model, const State& state) {
-  if (!setup_) {
-    const bool dynamic = scene_.analysis.kind == AnalysisKind::dynamics;
-    const double expected = dynamic ? expected_stress(model) : 0;
-    setup_.emplace(Setup{Outline(model.discretization), view_box(scene_, model),
-                         expected > 0 ? round_up(expected) : 0});
-  }
+  if (!setup_)
+    setup_.emplace(
+        Setup{Outline(model.discretization), view_box(scene_, model), stress_limit(scene_, model)});
   Drawing(canvas, scene_, model, *setup_, state).draw();
 }
 

@@ -6,9 +6,9 @@
 #include "builtin.h"
 #include "sem/draw/raster.h"
 #include "sem/draw/view.h"
+#include "sem/picture/scales.h"
 #include "sem/scene/analysis.h"
 #include "src2d/picture/frame.h"
-#include "src2d/picture/scales.h"
 
 using namespace sem;
 using sem::test::Body;

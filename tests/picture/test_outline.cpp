@@ -2,9 +2,9 @@
 #include <doctest/doctest.h>
 
 #include "builtin.h"
+#include "sem/picture/scales.h"
 #include "solids.h"
 #include "src2d/picture/outline.h"
-#include "src2d/picture/scales.h"
 
 using namespace sem;
 using sem::test::Body;

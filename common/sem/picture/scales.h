@@ -1,0 +1,40 @@
+#pragma once
+// What is the same in all frames of a run: the box they show and the stress that ends the colour
+// scale. Both follow from the scene alone, so a run that is resumed draws the same frames.
+
+#include "sem/scene/model.h"
+
+namespace sem {
+
+/// Room for the motion to be expected, m. Statics and modes: the rest shape with a margin. Dynamics
+/// without pins: the rest shape along its ballistic path. With pins that hold a region:
+/// twice the linear static displacement, as far as the body reaches from its pins, and a margin. Hung
+/// by a point: all that it can reach when it turns about it, no higher than at rest.
+template <int Dim>
+Box<Dim> motion_box(const Scene<Dim>& scene, const Model<Dim>& model);
+
+/// What a frame in 2D shows: the scene's output.view, or else the motion_box.
+Box<2> view_box(const Scene<2>& scene, const Model<2>& model);
+
+/// A stress that most of the body stays below in a dynamic run, as long as it is not far from
+/// linear, Pa: twice the von Mises stress that 2 % of the points exceed in the linear static answer
+/// to loads and prescribed displacements, plus half the density times the velocity squared of an
+/// initial spin. 0 if nothing acts.
+template <int Dim>
+double expected_stress(const Model<Dim>& model);
+
+/// Von Mises stress at every quadrature point, Pa; in plane strain the stress across the plane is
+/// taken to first order, nu (s_xx + s_yy). NaN where the material is inverted and has no stress.
+template <int Dim>
+Eigen::VectorXd von_mises(const Model<Dim>& model, const Eigen::VectorXd& z);
+
+/// The stress that ends the colour scale of all frames of a dynamic run: a round number from
+/// expected_stress; 0, the frame's own, in statics and modes and where nothing acts.
+template <int Dim>
+double stress_limit(const Scene<Dim>& scene, const Model<Dim>& model);
+
+/// A round number not below the value, which is > 0: 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of
+/// ten.
+double round_up(double value);
+
+}  // namespace sem

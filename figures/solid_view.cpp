@@ -1,0 +1,127 @@
+#include "figures/solid_view.h"
+
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "src3d/render/renderer.h"
+#include "src3d/render/tessellate.h"
+
+namespace sem::figures {
+namespace {
+
+Box<3> control_box(const std::vector<Nurbs<2, 3>>& parts) {
+  Box<3> box;
+  for (const auto& part : parts)
+    for (Eigen::Index c = 0; c < part.control_points.cols(); ++c)
+      box.include(Vec<3>(part.control_points.col(c)));
+  return box;
+}
+
+// One for all figures: programs are compiled once.
+render::Renderer& renderer() {
+  static render::Renderer instance;
+  return instance;
+}
+
+void draw_label(const Pen& pen, const render::Camera& camera, const SolidLabel& label) {
+  const Vec<2> at = pen.box().lower + camera.project(label.at),
+               to = at + pen.point * Vec<2>(label.offset[0], -label.offset[1]);
+  if (label.leader) pen.canvas.line(at, to, pen.stroke({0.35, 0.35, 0.35}, 0.6));
+  using Horizontal = TextStyle::Horizontal;
+  const Horizontal side = label.offset[0] > 2    ? Horizontal::left
+                          : label.offset[0] < -2 ? Horizontal::right
+                                                 : Horizontal::center;
+  const double gap = side == Horizontal::left ? 2 : side == Horizontal::right ? -2 : 0;
+  pen.canvas.text(to + Vec<2>(gap * pen.point, 0), label.text, pen.text(side));
+}
+
+}  // namespace
+
+void add_surfaces(Data& data, const std::vector<Nurbs<2, 3>>& parts) {
+  auto& surfaces = data.add("surfaces", {"part", "degree_u", "degree_v"});
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    surfaces.add({double(i), double(parts[i].degree[0]), double(parts[i].degree[1])});
+  auto& knots = data.add("knots", {"part", "axis", "knot"});
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (int axis = 0; axis < 2; ++axis)
+      for (const double knot : parts[i].knots[axis]) knots.add({double(i), double(axis), knot});
+  auto& controls = data.add("controls", {"part", "x", "y", "z", "w"});
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (Eigen::Index c = 0; c < parts[i].control_points.cols(); ++c) {
+      const Vec<3> X = parts[i].control_points.col(c);
+      controls.add({double(i), X[0], X[1], X[2], parts[i].weights[c]});
+    }
+}
+
+std::vector<Nurbs<2, 3>> surfaces_of(const Data& data) {
+  std::vector<Nurbs<2, 3>> parts;
+  const DataTable& surfaces = data["surfaces"];
+  const auto knots = data["knots"].runs("part"), controls = data["controls"].runs("part");
+  for (int i = 0; i < surfaces.n_rows(); ++i) {
+    Nurbs<2, 3> part;
+    part.degree = {int(surfaces["degree_u"][i]), int(surfaces["degree_v"][i])};
+    for (int axis = 0; axis < 2; ++axis) part.knots[axis] = knots[i].where("axis", axis)["knot"];
+    const int n = controls[i].n_rows();
+    part.control_points.resize(3, n);
+    part.weights.resize(n);
+    for (int c = 0; c < n; ++c) {
+      part.control_points.col(c) << controls[i]["x"][c], controls[i]["y"][c], controls[i]["z"][c];
+      part.weights[c] = controls[i]["w"][c];
+    }
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+void draw_view(Panel& panel, SolidView view) {
+  panel.frame = false;
+  panel.include({0, 0});
+  panel.include({1, 1});
+  // A plot is laid out, then drawn; both ask for the same picture.
+  const auto pictures = std::make_shared<std::map<std::pair<int, int>, Image>>();
+  panel.draw([view = std::move(view), pictures](const Pen& pen) {
+    const Box<2> box = pen.box();
+    const int width = int(std::lround(box.upper[0] - box.lower[0])),
+              height = int(std::lround(box.upper[1] - box.lower[1]));
+    if (width < 1 || height < 1) return;
+    const double margin = 2 * pen.point;
+    const auto camera =
+        render::framing(view.framed, view.direction,
+                        {Vec<2>::Constant(margin), Vec<2>(width - margin, height - margin)});
+    auto& picture = (*pictures)[{width, height}];
+    if (picture.width == 0)
+      picture =
+          renderer().render(view.scene(pen.point), camera, render::paper_quality(width, height));
+    const Vec<2> corner = box.lower.array().round();
+    pen.canvas.image(picture, {corner, corner + Vec<2>(width, height)});
+    for (const auto& label : view.labels) draw_label(pen, camera, label);
+  });
+}
+
+std::vector<render::Mesh> meshes_of(const std::vector<Nurbs<2, 3>>& parts,
+                                    const std::function<Color(int part)>& color) {
+  const render::Flatness flatness{control_box(parts).diagonal() / 3000};
+  std::vector<render::Mesh> meshes;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    meshes.push_back(tessellate(prepare(parts[i]), flatness));
+    meshes.back().color = color(int(i));
+  }
+  return meshes;
+}
+
+render::Lines lines_of(const std::vector<Nurbs<2, 3>>& parts, int between, const Color& color,
+                       double width) {
+  const render::Flatness flatness{control_box(parts).diagonal() / 3000};
+  render::Lines lines{{}, color, width};
+  for (const auto& part : parts)
+    for (auto& chain : isoparametric_lines(prepare(part), between, between > 0, flatness))
+      lines.chains.push_back(std::move(chain));
+  return lines;
+}
+
+std::vector<Vec<3>> framed(const std::vector<Nurbs<2, 3>>& parts) {
+  return render::corners(control_box(parts));
+}
+
+}  // namespace sem::figures

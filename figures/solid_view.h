@@ -1,0 +1,48 @@
+#pragma once
+// Solids in figures: their surfaces as tables, and panels that show them rendered.
+
+#include <functional>
+
+#include "figures/figure.h"
+#include "sem/nurbs/nurbs.h"
+#include "src3d/render/camera.h"
+#include "src3d/render/render_scene.h"
+
+namespace sem::figures {
+
+/// Adds the tables `surfaces` (part, degree_u, degree_v), `knots` (part, axis, knot) and `controls`
+/// (part, x, y, z, w).
+void add_surfaces(Data& data, const std::vector<Nurbs<2, 3>>& parts);
+/// What they hold.
+std::vector<Nurbs<2, 3>> surfaces_of(const Data& data);
+
+/// A text beside a point of the scene; offset in points, y up.
+struct SolidLabel {
+  Vec<3> at;
+  std::string text;
+  Vec<2> offset = Vec<2>::Zero();
+  bool leader = false;
+};
+
+/// What a panel shows of space. `scene` is called with the number of pixels to a point (1/72 inch),
+/// for the widths of lines.
+struct SolidView {
+  std::function<render::RenderScene(double point)> scene;
+  std::vector<Vec<3>> framed;  ///< what the camera has in view
+  render::ViewDirection direction = {};
+  std::vector<SolidLabel> labels = {};
+};
+
+/// Fills the panel with the view; it has neither axes nor frame.
+void draw_view(Panel& panel, SolidView view);
+
+/// The parts as meshes of a colour each, flat to 1/3000 of their common size.
+std::vector<render::Mesh> meshes_of(const std::vector<Nurbs<2, 3>>& parts,
+                                    const std::function<Color(int part)>& color);
+/// Lines along the sides of all parts; `between` lines inside every knot span as well.
+render::Lines lines_of(const std::vector<Nurbs<2, 3>>& parts, int between, const Color& color,
+                       double width);
+/// Corners of the box of all control points, to be framed.
+std::vector<Vec<3>> framed(const std::vector<Nurbs<2, 3>>& parts);
+
+}  // namespace sem::figures
