@@ -14,6 +14,8 @@
 // patch runs in the parameter t that makes the weights of its ends equal (Moebius),
 //   s = lower + (upper - lower) r t / (1 - t + r t).
 // Halved there, weights of 1, w, 1 become those of 1, about sqrt(w / 2), 1.
+// Trimmed: the border's closest point comes first. Nothing else counts but stationary points inside the region,
+// so a patch that the border runs through is also done when q / v has none there, or only the one found.
 
 namespace sem {
 namespace {
@@ -52,6 +54,13 @@ class SurfaceClosest {
   ClosestPoint<3> run() {
     auto& order = scratch_.order;
     order.clear();
+    if (part_.region) {
+      const auto border = part_.region->closest_on_border(X_, least_);
+      if (border.distance <= least_) {
+        best_ = border;
+        least_ = border.distance;
+      }
+    }
     for (size_t k = 0; k < part_.pieces.size(); ++k) {
       const Box<3>& box = part_.pieces[k].box;
       const Vec<3> outside = (box.lower - X_).cwiseMax(X_ - box.upper).cwiseMax(0.0);
@@ -190,9 +199,13 @@ class SurfaceClosest {
     int where = 0;
     const double least = square_distance(c, where);
     if (hopeless(std::sqrt(std::max(0.0, least)))) return true;
+    const Overlap overlap = part_.region ? part_.region->overlap(global(patch.lower), global(patch.upper)) : Overlap::all;
+    if (overlap == Overlap::none) return true;
     const int p = 2 * piece_->degree[0], q = 2 * piece_->degree[1];
     const Vec<2> share(double(where % (p + 1)) / p, double(where / (p + 1)) / q);
-    return hopeless(bound_from_minimum(patch, descend(parameter(patch, share), patch)));
+    const Descent found = descend(parameter(patch, share), patch);
+    return hopeless(bound_from_minimum(patch, found)) ||
+           (overlap == Overlap::some && at_most_one_stationary(std::max(0.0, least)));
   }
 
   // Coefficients of q and v, of degree (2p, 2q) and times its binomials; the least q_i / v_i.
@@ -252,36 +265,70 @@ class SurfaceClosest {
     Jet jet;
   };
 
+  // Bounds of the second derivatives of f = q - m v over the patch, in its own parameters, and of v.
+  struct Curvature {
+    double uu, vv, uv;  // at least; at least; |f_uv| at most
+    double least_v, largest_v;
+  };
+
+  Curvature bound_curvature(double m) {
+    const int p = 2 * piece_->degree[0], q = 2 * piece_->degree[1], row = p + 1;
+    const double* Bp = detail::binomials(p);
+    const double* Bq = detail::binomials(q);
+    const double infinity = std::numeric_limits<double>::infinity();
+    Curvature bounds{infinity, infinity, 0, infinity, 0};
+    auto& f = scratch_.f;
+    f.resize(scratch_.q.size());
+    for (int j = 0, i = 0; j <= q; ++j)
+      for (int k = 0; k <= p; ++k, ++i) {
+        const double inverse = 1 / (Bp[k] * Bq[j]);
+        f[i] = (scratch_.q[i] - m * scratch_.v[i]) * inverse;
+        bounds.least_v = std::min(bounds.least_v, scratch_.v[i] * inverse);
+        bounds.largest_v = std::max(bounds.largest_v, scratch_.v[i] * inverse);
+      }
+    for (int j = 0; j <= q; ++j)
+      for (int k = 0; k <= p; ++k) {
+        const double* at = &f[j * row + k];
+        if (k + 2 <= p) bounds.uu = std::min(bounds.uu, at[0] - 2 * at[1] + at[2]);
+        if (j + 2 <= q) bounds.vv = std::min(bounds.vv, at[0] - 2 * at[row] + at[2 * row]);
+        if (k < p && j < q) bounds.uv = std::max(bounds.uv, std::abs(at[0] - at[1] - at[row] + at[row + 1]));
+      }
+    bounds.uu *= p * (p - 1);
+    bounds.vv *= q * (q - 1);
+    bounds.uv *= p * q;
+    return bounds;
+  }
+
+  // True if the patch has at most one stationary point with a value from m to the best one. Stationary points
+  // of q / v with the value M are those of q - M v, whose coefficients are linear in M.
+  bool at_most_one_stationary(double m) {
+    const int n_u = 2 * piece_->degree[0] + 1, n_f = int(scratch_.q.size());
+    double lower[2] = {1e300, 1e300}, upper[2] = {-1e300, -1e300};  // of f_u, f_v
+    double uu = 1e300, vv = 1e300, uv = 0;
+    for (const double value : {m, std::max(m, least_ * least_)}) {
+      const Curvature bounds = bound_curvature(value);
+      uu = std::min(uu, bounds.uu);
+      vv = std::min(vv, bounds.vv);
+      uv = std::max(uv, bounds.uv);
+      for (int i = 0; i < n_f; ++i)
+        for (int axis = 0; axis < 2; ++axis) {
+          const int next = axis == 0 ? i + 1 : i + n_u;
+          if (axis == 0 ? next % n_u == 0 : next >= n_f) continue;
+          lower[axis] = std::min(lower[axis], scratch_.f[next] - scratch_.f[i]);
+          upper[axis] = std::max(upper[axis], scratch_.f[next] - scratch_.f[i]);
+        }
+    }
+    const bool rises = lower[0] > 0 || lower[1] > 0, falls = upper[0] < 0 || upper[1] < 0;
+    return rises || falls || (uu > 0 && vv > 0 && uu * vv > uv * uv);
+  }
+
   // Lower bound of the distance from a minimum m of its square. If f = q - m v
   // is convex, f >= g.d + (a d_u^2 - 2 c |d_u d_v| + b d_v^2) / 2 with its
   // gradient g at the minimum and bounds a, b, c of its second derivatives:
   // nothing on the patch is closer than by rounding. Else by what f may fall over the whole patch.
   double bound_from_minimum(const Patch& patch, const Descent& found) {
     const double m = found.jet.offset.squaredNorm();
-    const int p = 2 * piece_->degree[0], q = 2 * piece_->degree[1], row = p + 1;
-    const double* Bp = detail::binomials(p);
-    const double* Bq = detail::binomials(q);
-    auto& f = scratch_.f;
-    f.resize(scratch_.q.size());
-    double least_v = std::numeric_limits<double>::infinity(), largest_v = 0;
-    for (int j = 0, i = 0; j <= q; ++j)
-      for (int k = 0; k <= p; ++k, ++i) {
-        const double inverse = 1 / (Bp[k] * Bq[j]);
-        f[i] = (scratch_.q[i] - m * scratch_.v[i]) * inverse;
-        least_v = std::min(least_v, scratch_.v[i] * inverse);
-        largest_v = std::max(largest_v, scratch_.v[i] * inverse);
-      }
-    double uu = std::numeric_limits<double>::infinity(), vv = uu, uv = 0;
-    for (int j = 0; j <= q; ++j)
-      for (int k = 0; k <= p; ++k) {
-        const double* at = &f[j * row + k];
-        if (k + 2 <= p) uu = std::min(uu, at[0] - 2 * at[1] + at[2]);
-        if (j + 2 <= q) vv = std::min(vv, at[0] - 2 * at[row] + at[2 * row]);
-        if (k < p && j < q) uv = std::max(uv, std::abs(at[0] - at[1] - at[row] + at[row + 1]));
-      }
-    uu *= p * (p - 1);
-    vv *= q * (q - 1);
-    uv *= p * q;
+    const auto [uu, vv, uv, least_v, largest_v] = bound_curvature(m);
     Vec<2> g = 2 * largest_v * found.gradient.cwiseProduct(speed(patch, found.s)).cwiseAbs();
     for (int a = 0; a < 2; ++a)
       if (found.fixed[a]) g[a] = 0;  // f rises from this side of the patch
@@ -411,6 +458,7 @@ class SurfaceClosest {
     const double length = step.cwiseAbs().maxCoeff();
     if (!(length > 1e-16 && length < 1e-4)) return false;
     const Vec<2> next = (best_s_ - step).cwiseMax(0.0).cwiseMin(1.0);
+    if (part_.region && !part_.region->contains(global(next))) return false;
     const Vec<3> offset = evaluate(next).offset;
     if (!(offset.norm() <= best_.distance + 1e-15 * (best_.distance + size_))) return false;
     set_best(next, offset);
@@ -427,6 +475,7 @@ class SurfaceClosest {
   void offer(const Vec<2>& s, const Vec<3>& offset) {
     const double distance = offset.norm();
     if (!(distance <= least_) || distance == best_.distance) return;
+    if (part_.region && !part_.region->contains(global(s))) return;
     least_ = distance;
     set_best(s, offset);
   }
@@ -436,9 +485,15 @@ class SurfaceClosest {
     best_s_ = s;
     best_.distance = offset.norm();
     best_.point = X_ + offset;
+    best_.u = global(s);
+  }
+
+  // The part's parameters at s of the piece.
+  Param<2> global(const Vec<2>& s) const {
+    Param<2> u;
     for (int a = 0; a < 2; ++a)
-      best_.u[a] = s[a] == 1 ? piece_->upper[a]
-                             : piece_->lower[a] + s[a] * (piece_->upper[a] - piece_->lower[a]);
+      u[a] = s[a] == 1 ? piece_->upper[a] : piece_->lower[a] + s[a] * (piece_->upper[a] - piece_->lower[a]);
+    return u;
   }
 
   const PreparedNurbs<2, 3>& part_;
