@@ -5,6 +5,7 @@
 
 #include "sem/base/error.h"
 #include "sem/method/boundary_integrals.h"
+#include "sem/method/distance_weights.h"
 #include "sem/method/quadrature.h"
 #include "sem/method/samples.h"
 #include "sem/nurbs/closest.h"
@@ -233,6 +234,53 @@ TEST_CASE("trims: volume and moments of a box with a cylinder on it or a hole in
       CHECK(X[2] < (under ? 1 + rise : 1.0));
       CHECK(inside(boundary, loops, X));
     }
+  }
+}
+
+TEST_CASE(
+    "trims: gradients of the distance weights agree with differences, also where feet lie on a "
+    "trim") {
+  const auto boundary = trimmed_boundary(test::box_with_cylinder(0.2, 0.7));
+  const auto loops = find_loops(boundary);
+  const double h = 1e-6;
+  for (const auto variant : {DistanceWeight::sided, DistanceWeight::published}) {
+    std::mt19937 random(4);
+    const auto theta_at = [&](const Points<3>& X, bool with_gradient, Distances<3>& distances) {
+      distances = measure_distances(boundary, loops, X, variant, 2.0);
+      auto theta = distance_weights(distances, {.variant = variant, .cutoff = 0.9});
+      if (with_gradient) distance_weight_gradients(boundary, X, distances, theta);
+      return theta;
+    };
+    int n_checked = 0, n_on_border = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+      Vec<3> X(uniform(random, 0.3, 0.7), uniform(random, 0.3, 0.7), uniform(random, 0.7, 1.5));
+      if (!inside(boundary, loops, X)) continue;
+      Distances<3> distances, near;
+      const auto here = theta_at(X, true, distances);
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vec<3> step = h * Vec<3>::Unit(axis);
+        Points<3> around(3, 2);
+        around << X - step, X + step;
+        const auto there = theta_at(around, false, near);
+        if (there.begin[1] != int(here.part.size()) || there.begin[2] != 2 * there.begin[1])
+          continue;
+        for (size_t e = 0; e < here.part.size(); ++e) {
+          const size_t before = e, behind = e + there.begin[1];
+          if (there.piece[before] != there.piece[behind]) continue;
+          const double difference = (there.theta[behind] - there.theta[before]) / (2 * h);
+          CAPTURE(X.transpose());
+          CAPTURE(here.part[e]);
+          CHECK(std::abs(here.gradient[e][axis] - difference) < 1e-5 * (1 + std::abs(difference)));
+          ++n_checked;
+          const auto& region = boundary.parts[here.part[e]].region;
+          for (int pair = 0; region && pair < distances.begin[1]; ++pair)
+            n_on_border += distances.part[pair] == here.part[e] &&
+                           region->near_border(distances.foot_u[pair], 1e-9);
+        }
+      }
+    }
+    CHECK(n_checked > 100);
+    CHECK(n_on_border > 30);
   }
 }
 
