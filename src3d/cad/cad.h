@@ -26,9 +26,11 @@ struct CadModel {
   int n_solids = 0;
   std::string unit;                ///< of the file
   std::vector<std::string> notes;  ///< what had to be mended
-  /// OpenCASCADE's own: m^2 of each part, m^3 that the faces enclose (of open shells: meaningless).
-  std::vector<double> area;
-  double volume = 0;
+  // OpenCASCADE's own, for comparison.
+  std::vector<double> area;      ///< m^2, of each part
+  std::optional<double> volume;  ///< m^3, sum over the shells that faces make when joined to 1e-4
+                                 ///< of the size; none: edges stay free
+  int n_free_edges = 0;
 };
 
 /// True if CAD files can be read and written.

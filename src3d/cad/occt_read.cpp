@@ -1,9 +1,12 @@
 // Reading IGES and STEP with OpenCASCADE.
+#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepGProp.hxx>
 #include <BRepTools.hxx>
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <Geom2dConvert.hxx>
 #include <Geom2d_BSplineCurve.hxx>
@@ -20,6 +23,7 @@
 #include <TDF_LabelSequence.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
@@ -32,6 +36,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "sem/base/error.h"
 #include "sem/method/trims.h"
@@ -90,7 +95,7 @@ Document read_document(const std::string& file, bool iges) {
   };
   if (iges) {
     IGESCAFControl_Reader reader;
-    Interface_Static::SetIVal("read.surfacecurve.mode", 0);
+    Interface_Static::SetIVal("read.surfacecurve.mode", 2);  // curves in the parameter plane count
     transfer(reader);
     const auto name = reader.IGESModel()->GlobalSection().UnitName();
     result.unit = name.IsNull() ? "" : name->ToCString();
@@ -107,14 +112,17 @@ Document read_document(const std::string& file, bool iges) {
 std::string name_of(const TDF_Label& label) {
   Handle(TDataStd_Name) name;
   if (!label.FindAttribute(TDataStd_Name::GetID(), name)) return "";
-  const TCollection_AsciiString text(name->Get(), '?');
-  return text.ToCString();
+  const TCollection_ExtendedString& text = name->Get();
+  std::string bytes(size_t(text.LengthOfCString()) + 1, '\0');
+  char* begin = bytes.data();
+  bytes.resize(size_t(text.ToUTF8CString(begin)));
+  return bytes;
 }
 
-// A name is a group up to its first dot.
-std::string without_dots(std::string name) {
+// Without what names of parts use for other ends.
+std::string plain_name(std::string name) {
   std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == '.' || c == '/' || c == '~' || c < ' '; },
+      name.begin(), name.end(), [](char c) { return c == '/' || c == '~' || (c >= 0 && c < ' '); },
       '_');
   return name;
 }
@@ -188,8 +196,9 @@ class FaceFinder {
       faces.push_back({TopoDS::Face(shape), name, color, solid});
       return;
     }
-    const bool closes =
-        shape.ShapeType() == TopAbs_SOLID || (shape.ShapeType() == TopAbs_SHELL && solid < 0);
+    // Open shells are no solids of their own.
+    const bool shell = shape.ShapeType() == TopAbs_SHELL && solid < 0 && BRep_Tool::IsClosed(shape);
+    const bool closes = shape.ShapeType() == TopAbs_SOLID || shell;
     if (closes) solid = n_solids++;
     for (TopoDS_Iterator it(shape); it.More(); it.Next()) {
       const std::string own = labels_.of(it.Value());
@@ -265,13 +274,17 @@ class FaceConverter {
 
   // One part; notes what had to be mended.
   CadPart convert(const TopoDS_Face& original, std::vector<std::string>& notes) {
-    BRepBuilderAPI_NurbsConvert converter(original);
-    const TopoDS_Face face = TopoDS::Face(converter.Shape());
+    // What is a NURBS already stays as it is: the conversion approximates curves in the parameter
+    // plane.
+    TopoDS_Face face = original;
     Handle(Geom_BSplineSurface) surface =
         Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(face));
+    if (surface.IsNull()) {
+      face = TopoDS::Face(BRepBuilderAPI_NurbsConvert(original).Shape());
+      surface = GeomConvert::SurfaceToBSplineSurface(BRep_Tool::Surface(face));
+    }
     double u0, u1, v0, v1;
     BRepTools::UVBounds(face, u0, u1, v0, v1);
-    if (surface.IsNull()) surface = GeomConvert::SurfaceToBSplineSurface(BRep_Tool::Surface(face));
     surface = Handle(Geom_BSplineSurface)::DownCast(surface->Copy());
     // A face across the seam of a periodic surface: cut there, so that its parameters are within
     // the domain.
@@ -323,7 +336,7 @@ class FaceConverter {
           curve_of(Geom2dConvert::CurveToBSplineCurve(new Geom2d_TrimmedCurve(curve, first, last)));
       if (edge.Orientation() == TopAbs_REVERSED) shape = reversed(shape, 0);
       if (prepare(shape).box.diagonal() > 1e-12 * box_.diagonal())
-        loop.push_back(within_domain(std::move(shape)));
+        loop.push_back(within_domain(std::move(shape), BRep_Tool::Degenerated(edge)));
     };
     BRepTools_WireExplorer ordered(wire, face);
     int n_ordered = 0;
@@ -335,9 +348,10 @@ class FaceConverter {
     return closed(std::move(loop), notes);
   }
 
-  // Control points outside of the domain by rounding are moved onto its border.
-  Nurbs<1, 2> within_domain(Nurbs<1, 2> curve) const {
-    const double near = 10 * beside * box_.diagonal();
+  // Control points outside of the domain by rounding, or of an edge that is a point in space, are
+  // moved onto its border.
+  Nurbs<1, 2> within_domain(Nurbs<1, 2> curve, bool degenerate) const {
+    const double near = (degenerate ? 1 : 10 * beside) * box_.diagonal();
     for (int i = 0; i < curve.control_points.cols(); ++i)
       for (int a = 0; a < 2; ++a) {
         double& u = curve.control_points(a, i);
@@ -391,6 +405,24 @@ class FaceConverter {
   Box<2> box_;
 };
 
+// What OpenCASCADE makes of the faces when it sews them, each closed shell by itself.
+void find_volume(const std::vector<FoundFace>& faces, CadModel& model) {
+  Bnd_Box box;
+  for (const auto& face : faces) BRepBndLib::Add(face.face, box);
+  BRepBuilderAPI_Sewing sewing(1e-4 * std::sqrt(box.SquareExtent()));
+  for (const auto& face : faces) sewing.Add(face.face);
+  sewing.Perform();
+  model.n_free_edges = sewing.NbFreeEdges();
+  if (model.n_free_edges > 0) return;
+  double volume = 0;
+  for (TopExp_Explorer shell(sewing.SewedShape(), TopAbs_SHELL); shell.More(); shell.Next()) {
+    GProp_GProps inside;
+    BRepGProp::VolumeProperties(shell.Current(), inside, 1e-9);
+    volume += std::abs(inside.Mass());
+  }
+  model.volume = volume * metres * metres * metres;
+}
+
 }  // namespace
 
 bool has_cad() { return true; }
@@ -406,23 +438,24 @@ CadModel read_cad(const std::string& file) {
     CadModel model;
     model.unit = document.unit;
     model.n_solids = found.n_solids;
-    std::map<std::string, int> count, next;
-    for (const auto& face : found.faces) ++count[without_dots(face.name)];
+    std::map<std::string, int> count;
+    for (const auto& face : found.faces) ++count[plain_name(face.name)];
+    std::set<std::string> used;
     for (const auto& face : found.faces) {
-      std::string name = without_dots(face.name);
-      const bool unique = !name.empty() && count[name] == 1;
+      std::string name = plain_name(face.name);
       const std::string group = name.empty() ? "part" : name;
-      if (!unique) name = group + "." + std::to_string(++next[group]);
+      for (int k = 1; name.empty() || count[name] > 1 || used.count(name) > 0; ++k)
+        name = group + "." + std::to_string(k);
+      used.insert(name);
       CadPart part = FaceConverter(name).convert(face.face, model.notes);
       part.color = face.color;
       part.solid = face.solid;
       model.parts.push_back(std::move(part));
-      GProp_GProps surface, inside;
-      BRepGProp::SurfaceProperties(face.face, surface);
-      BRepGProp::VolumeProperties(face.face, inside);
+      GProp_GProps surface;
+      BRepGProp::SurfaceProperties(face.face, surface, 1e-9);
       model.area.push_back(surface.Mass() * metres * metres);
-      model.volume += inside.Mass() * metres * metres * metres;
     }
+    find_volume(found.faces, model);
     return model;
   } catch (const InputError& error) {
     if (std::string(error.what()).starts_with(file)) throw;

@@ -8,11 +8,19 @@
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <IGESCAFControl_Writer.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <IGESData_IGESWriter.hxx>
+#include <IGESData_Protocol.hxx>
+#include <IGESSelect_WorkLibrary.hxx>
+#include <Interface_FloatWriter.hxx>
 #include <Interface_Static.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Writer.hxx>
 #include <ShapeFix_Face.hxx>
 #include <Standard_Failure.hxx>
+#include <StepData_Protocol.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepData_StepWriter.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopoDS.hxx>
@@ -26,6 +34,7 @@
 #include <XSControl_WorkSession.hxx>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 
 #include "sem/base/error.h"
 #include "sem/method/loops.h"
@@ -144,7 +153,7 @@ TopoDS_Wire wire_of(const std::vector<Nurbs<1, 2>>& loop,
   BRepBuilderAPI_MakeWire wire;
   for (const auto& curve : in_order(loop)) {
     const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(curve_of(curve, field), surface);
-    BRepLib::BuildCurves3d(edge);
+    BRepLib::BuildCurve3d(edge, 1e-7, GeomAbs_C1, 9, 500);  // mm
     wire.Add(edge);
     if (!wire.IsDone())
       throw InputError("", field, "a loop that OpenCASCADE cannot join", "closed loops");
@@ -183,6 +192,29 @@ Handle(TDocStd_Document) document_of(const std::vector<CadPart>& parts) {
   return document;
 }
 
+// OpenCASCADE's writers round to 9 (IGES) and 12 digits (STEP) if nothing is said; they have room
+// for 19 characters a number, which is 13 digits. Its suppression of zeros loses exponents of such
+// formats: off.
+void print_many_digits(Interface_FloatWriter& writer) { writer.SetFormat("%.12E"); }
+
+bool print_iges(IGESCAFControl_Writer& from, const std::string& file) {
+  from.ComputeModel();
+  IGESData_IGESWriter writer(from.Model());
+  print_many_digits(writer.FloatWriter());
+  writer.SendModel(IGESSelect_WorkLibrary::DefineProtocol());
+  std::ofstream out(file, std::ios::binary);
+  return writer.Print(out) && out.flush();
+}
+
+bool print_step(STEPCAFControl_Writer& from, const std::string& file) {
+  const Handle(StepData_StepModel) model = from.ChangeWriter().Model();
+  StepData_StepWriter writer(model);
+  print_many_digits(writer.FloatWriter());
+  writer.SendModel(Handle(StepData_Protocol)::DownCast(model->Protocol()));
+  std::ofstream out(file, std::ios::binary);
+  return writer.Print(out) && out.flush();
+}
+
 }  // namespace
 
 void write_cad(const std::string& file, const std::vector<CadPart>& parts) {
@@ -204,12 +236,12 @@ void write_cad(const std::string& file, const std::vector<CadPart>& parts) {
       Interface_Static::SetIVal("write.surfacecurve.mode", 1);
       IGESCAFControl_Writer writer;
       transfer(writer);
-      written = writer.Perform(document, temporary.c_str());
+      written = writer.Transfer(document) && print_iges(writer, temporary);
     } else {
       Interface_Static::SetCVal("write.step.unit", "MM");
       STEPCAFControl_Writer writer;
       transfer(writer);
-      written = writer.Transfer(document) && writer.Write(temporary.c_str()) == IFSelect_RetDone;
+      written = writer.Transfer(document) && print_step(writer, temporary);
     }
   } catch (const InputError& error) {
     throw InputError(file, error);
