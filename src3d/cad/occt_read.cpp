@@ -305,6 +305,7 @@ class FaceConverter {
 
  private:
   void find_trims(const TopoDS_Face& face, CadPart& part, std::vector<std::string>& notes) {
+    surface_ = part.shape;
     for (int axis = 0; axis < 2; ++axis) {
       box_.lower[axis] = domain(part.shape, axis).lower;
       box_.upper[axis] = domain(part.shape, axis).upper;
@@ -336,7 +337,7 @@ class FaceConverter {
           curve_of(Geom2dConvert::CurveToBSplineCurve(new Geom2d_TrimmedCurve(curve, first, last)));
       if (edge.Orientation() == TopAbs_REVERSED) shape = reversed(shape, 0);
       if (prepare(shape).box.diagonal() > 1e-12 * box_.diagonal())
-        loop.push_back(within_domain(std::move(shape), BRep_Tool::Degenerated(edge)));
+        loop.push_back(within_domain(std::move(shape), BRep_Tool::Degenerated(edge) || is_point(shape)));
     };
     BRepTools_WireExplorer ordered(wire, face);
     int n_ordered = 0;
@@ -346,6 +347,16 @@ class FaceConverter {
       for (TopoDS_Iterator it(wire); it.More(); it.Next()) add(TopoDS::Edge(it.Value()));
     }
     return closed(std::move(loop), notes);
+  }
+
+  // Whether the image of a curve is a point, at a pole.
+  bool is_point(const Nurbs<1, 2>& curve) const {
+    const Interval range = domain(curve, 0);
+    const auto image = [&](double t) {
+      return point(surface_, Param<2>(point(curve, Param<1>(range.lower + t * (range.upper - range.lower)))));
+    };
+    const double size = (surface_.control_points.rowwise().maxCoeff() - surface_.control_points.rowwise().minCoeff()).norm();
+    return (image(0) - image(1)).norm() + (image(0) - image(0.4)).norm() < beside * size;
   }
 
   // Control points outside of the domain by rounding, or of an edge that is a point in space, are
@@ -402,6 +413,7 @@ class FaceConverter {
   }
 
   std::string name_;
+  Nurbs<2, 3> surface_;
   Box<2> box_;
 };
 

@@ -14,7 +14,7 @@
 // patch runs in the parameter t that makes the weights of its ends equal (Moebius),
 //   s = lower + (upper - lower) r t / (1 - t + r t).
 // Halved there, weights of 1, w, 1 become those of 1, about sqrt(w / 2), 1.
-// Trimmed: the border's closest point comes first. Nothing else counts but stationary points inside the region,
+// Trimmed: where the whole surface's closest point is not in the region, the border's closest point comes first. Nothing else counts but stationary points inside the region,
 // so a patch that the border runs through is also done when q / v has none there, or only the one found.
 
 namespace sem {
@@ -44,8 +44,9 @@ struct Scratch {
 
 class SurfaceClosest {
  public:
-  SurfaceClosest(const PreparedNurbs<2, 3>& part, const Vec<3>& X, double cutoff, Scratch& scratch)
-      : part_(part), X_(X), scratch_(scratch), least_(cutoff), size_(part.box.diagonal()) {
+  SurfaceClosest(const PreparedNurbs<2, 3>& part, const Region<2, 3>* region, const Vec<3>& X, double cutoff,
+                 Scratch& scratch)
+      : part_(part), region_(region), X_(X), scratch_(scratch), least_(cutoff), size_(part.box.diagonal()) {
     best_.u.setConstant(std::numeric_limits<double>::quiet_NaN());
     best_.point.setConstant(std::numeric_limits<double>::quiet_NaN());
     best_.distance = std::numeric_limits<double>::infinity();
@@ -54,8 +55,8 @@ class SurfaceClosest {
   ClosestPoint<3> run() {
     auto& order = scratch_.order;
     order.clear();
-    if (part_.region) {
-      const auto border = part_.region->closest_on_border(X_, least_);
+    if (region_) {
+      const auto border = region_->closest_on_border(X_, least_);
       if (border.distance <= least_) {
         best_ = border;
         least_ = border.distance;
@@ -199,7 +200,7 @@ class SurfaceClosest {
     int where = 0;
     const double least = square_distance(c, where);
     if (hopeless(std::sqrt(std::max(0.0, least)))) return true;
-    const Overlap overlap = part_.region ? part_.region->overlap(global(patch.lower), global(patch.upper)) : Overlap::all;
+    const Overlap overlap = region_ ? region_->overlap(global(patch.lower), global(patch.upper)) : Overlap::all;
     if (overlap == Overlap::none) return true;
     const int p = 2 * piece_->degree[0], q = 2 * piece_->degree[1];
     const Vec<2> share(double(where % (p + 1)) / p, double(where / (p + 1)) / q);
@@ -458,7 +459,7 @@ class SurfaceClosest {
     const double length = step.cwiseAbs().maxCoeff();
     if (!(length > 1e-16 && length < 1e-4)) return false;
     const Vec<2> next = (best_s_ - step).cwiseMax(0.0).cwiseMin(1.0);
-    if (part_.region && !part_.region->contains(global(next))) return false;
+    if (region_ && !region_->contains(global(next))) return false;
     const Vec<3> offset = evaluate(next).offset;
     if (!(offset.norm() <= best_.distance + 1e-15 * (best_.distance + size_))) return false;
     set_best(next, offset);
@@ -475,7 +476,7 @@ class SurfaceClosest {
   void offer(const Vec<2>& s, const Vec<3>& offset) {
     const double distance = offset.norm();
     if (!(distance <= least_) || distance == best_.distance) return;
-    if (part_.region && !part_.region->contains(global(s))) return;
+    if (region_ && !region_->contains(global(s))) return;
     least_ = distance;
     set_best(s, offset);
   }
@@ -497,6 +498,7 @@ class SurfaceClosest {
   }
 
   const PreparedNurbs<2, 3>& part_;
+  const Region<2, 3>* region_;  // null: all of the part
   const Vec<3> X_;
   Scratch& scratch_;
   double least_, size_;
@@ -512,7 +514,9 @@ class SurfaceClosest {
 template <>
 ClosestPoint<3> closest_point(const PreparedNurbs<2, 3>& part, const Vec<3>& X, double cutoff) {
   thread_local Scratch scratch;
-  return SurfaceClosest(part, X, cutoff, scratch).run();
+  const auto whole = SurfaceClosest(part, nullptr, X, cutoff, scratch).run();
+  if (!part.region || !(whole.distance <= cutoff) || part.region->contains(whole.u)) return whole;
+  return SurfaceClosest(part, part.region.get(), X, cutoff, scratch).run();
 }
 
 }  // namespace sem
