@@ -189,6 +189,39 @@ TEST_CASE("trims: the closest point is that of the trimmed surface") {
     }
 }
 
+TEST_CASE("trims: a second valley inside the loops is found when the first lies outside") {
+  // z = 1 + 8 (u^2 - 1/4)^2 + tilt u, x = u / 10, y = v: seen from the origin's line the valleys u
+  // = -1/2 and 1/2.
+  for (const double tilt : {0.02, 1e-4, -0.02}) {
+    Nurbs<2, 3> patch;
+    patch.degree = {4, 1};
+    patch.knots = {std::vector<double>{-1, -1, -1, -1, -1, 1, 1, 1, 1, 1}, {0, 0, 1, 1}};
+    patch.control_points.resize(3, 10);
+    patch.weights = Eigen::VectorXd::Ones(10);
+    for (int j = 0; j < 2; ++j)
+      for (int i = 0; i < 5; ++i) {
+        const double sum = 2 * i - 4, u = sum / 4, square = (sum * sum - 4) / 12,
+                     fourth = i % 2 == 0 ? 1 : -1;
+        patch.control_points.col(i + 5 * j) =
+            Vec<3>(u / 10, j, 1 + 8 * (fourth - square / 2 + 1 / 16.0) + tilt * u);
+      }
+    for (const int side : {-1, 1}) {
+      const auto part = trimmed_part(
+          patch,
+          {test::polygon(
+              {{0.2 * side, 0.2}, {0.9 * side, 0.3}, {0.8 * side, 0.8}, {0.3 * side, 0.9}})});
+      double least = std::numeric_limits<double>::infinity();
+      for (int k = 0; k <= 4000; ++k)
+        least = std::min(
+            least, (point(patch, Param<2>(side * (0.4 + 0.2 * k / 4000), 0.5)) - Vec<3>(0, 0.5, 0))
+                       .norm());
+      const auto found = closest_point(part, Vec<3>(0, 0.5, 0));
+      CHECK(found.distance == doctest::Approx(least).epsilon(1e-7));
+      CHECK(found.u[0] == doctest::Approx(0.5 * side).epsilon(0.01));
+    }
+  }
+}
+
 TEST_CASE("trims: a foot on the border is the closest point of its curve in closed form") {
   const auto plane = test::rectangle({-1, -1}, {1, 1}, 0);
   const auto part = trimmed_part(plane, {test::circle({0, 0}, 0.8), test::circle({0, 0}, 0.3)});

@@ -131,6 +131,8 @@ TEST_CASE("trims are read and written, and bad ones named") {
   REQUIRE(trims[0].size() == 4);
   CHECK(trims[0][1].control_points == scene.solids[0].parts[4].trims[0][1].control_points);
   CHECK(again.solids[0].parts[0].trims.empty());
+  CHECK(document_scene<3>({}).find("trims: a list of objects") != std::string::npos);
+  CHECK(document_scene<2>({}).find("trims") == std::string::npos);
   const auto error = [&](const std::string& change) {
     return test::error_of([&] { read_scene<3>(text, "a.json", {}, {change}); });
   };
