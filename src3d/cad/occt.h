@@ -3,6 +3,7 @@
 
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
+#include <TopoDS_Face.hxx>
 #include <algorithm>
 #include <cctype>
 #include <string>
@@ -11,6 +12,13 @@
 #include "src3d/cad/cad.h"
 
 namespace sem {
+
+constexpr double metres = 1e-3;  ///< OpenCASCADE's lengths are mm
+
+/// A face as a part of this name, in m. Adds what had to be mended to the notes. Throws InputError,
+/// without the file.
+CadPart part_of_face(const TopoDS_Face& face, const std::string& name,
+                     std::vector<std::string>& notes);
 
 /// Its progress and warnings do not go to the output.
 inline void quiet_occt() { Message::DefaultMessenger()->ChangePrinters().Clear(); }

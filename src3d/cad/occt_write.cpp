@@ -45,7 +45,6 @@
 namespace sem {
 namespace {
 
-constexpr double millimetres = 1e3;
 constexpr int highest_degree = 25;
 
 // Distinct knots and how often each is repeated.
@@ -99,7 +98,7 @@ Handle(Geom_BSplineSurface) surface_of(const Nurbs<2, 3>& part, const std::strin
   TColStd_Array2OfReal weights(1, n_u, 1, n_v);
   for (int j = 0; j < n_v; ++j)
     for (int i = 0; i < n_u; ++i) {
-      const Vec<3> X = millimetres * shape.control_points.col(i + n_u * j);
+      const Vec<3> X = 1 / metres * shape.control_points.col(i + n_u * j);
       poles(i + 1, j + 1) = gp_Pnt(X[0], X[1], X[2]);
       weights(i + 1, j + 1) = shape.weights[i + n_u * j];
     }

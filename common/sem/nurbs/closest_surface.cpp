@@ -3,6 +3,7 @@
 
 #include "sem/nurbs/bernstein.h"
 #include "sem/nurbs/closest.h"
+#include "sem/nurbs/distance_bounds.h"
 #include "sem/nurbs/kernels.h"
 
 // Branch and bound on patches. A first lower bound of the distance comes from a
@@ -14,13 +15,14 @@
 // patch runs in the parameter t that makes the weights of its ends equal (Moebius),
 //   s = lower + (upper - lower) r t / (1 - t + r t).
 // Halved there, weights of 1, w, 1 become those of 1, about sqrt(w / 2), 1.
-// Trimmed: where the whole surface's closest point is not in the region, the border's closest point comes first. Nothing else counts but stationary points inside the region,
-// so a patch that the border runs through is also done when q / v has none there, or only the one found.
+// Trimmed: where the whole surface's closest point is not in the region, the border's closest point comes
+// first. Nothing else counts but stationary points inside the region, so a patch that the border runs through
+// is also done when q / v has none there, or only the one found.
 
 namespace sem {
 namespace {
 
-using Vec4 = Eigen::Vector4d;  // w (P - X), w
+using detail::Vec4;  // w (P - X), w
 
 constexpr int max_patches = 50000;  // only a curve of equally close points needs so many
 
@@ -37,8 +39,7 @@ struct Patch {
 struct Scratch {
   std::vector<Vec4> coefficients;  // of the whole piece, then of the stack
   std::vector<Patch> patches;
-  std::vector<Vec4> scaled, square;
-  std::vector<double> f, q, v;  // of a patch; q and v times the binomials
+  detail::DistanceBounds bounds;   // of a patch
   std::vector<std::pair<double, int>> order;
 };
 
@@ -198,7 +199,7 @@ class SurfaceClosest {
   // True if no point of the patch is better than the best one now known.
   bool finish(const Patch& patch, const Vec4* c) {
     int where = 0;
-    const double least = square_distance(c, where);
+    const double least = scratch_.bounds.set(c, piece_->degree, part_.power != nullptr, where);
     if (hopeless(std::sqrt(std::max(0.0, least)))) return true;
     const Overlap overlap = region_ ? region_->overlap(global(patch.lower), global(patch.upper)) : Overlap::all;
     if (overlap == Overlap::none) return true;
@@ -206,50 +207,7 @@ class SurfaceClosest {
     const Vec<2> share(double(where % (p + 1)) / p, double(where / (p + 1)) / q);
     const Descent found = descend(parameter(patch, share), patch);
     return hopeless(bound_from_minimum(patch, found)) ||
-           (overlap == Overlap::some && at_most_one_stationary(std::max(0.0, least)));
-  }
-
-  // Coefficients of q and v, of degree (2p, 2q) and times its binomials; the least q_i / v_i.
-  double square_distance(const Vec4* c, int& where) {
-    const int p = piece_->degree[0], q = piece_->degree[1], row = 2 * p + 1;
-    const double* Bp = detail::binomials(p);
-    const double* Bq = detail::binomials(q);
-    const size_t n_squares = size_t(row) * (2 * q + 1);
-    scratch_.q.resize(n_squares);
-    scratch_.v.resize(n_squares);
-    if (part_.power) {  // degree <= 12
-      alignas(32) double scaled[4 * 13 * 13];
-      for (int j = 0, a = 0; j <= q; ++j)
-        for (int i = 0; i <= p; ++i, ++a)
-          Eigen::Map<Vec4, Eigen::Aligned16>(scaled + 4 * a) = Bp[i] * Bq[j] * c[a];
-      return detail::kernels->square_distance(scaled, p, q, scratch_.q.data(), scratch_.v.data(),
-                                              &where);
-    }
-    auto& scaled = scratch_.scaled;
-    auto& square = scratch_.square;
-    scaled.resize(n_);
-    for (int j = 0, a = 0; j <= q; ++j)
-      for (int i = 0; i <= p; ++i, ++a) scaled[a] = Bp[i] * Bq[j] * c[a];
-    square.assign(n_squares, Vec4::Zero());
-    for (int j = 0, a = 0; j <= q; ++j)
-      for (int i = 0; i <= p; ++i, ++a) {
-        square[2 * (j * row + i)] += scaled[a].cwiseProduct(scaled[a]);
-        const Vec4 twice = 2 * scaled[a];
-        for (int l = j, b = a + 1; l <= q; ++l)
-          for (int k = l == j ? i + 1 : 0; k <= p; ++k, ++b)
-            square[(j + l) * row + i + k] += twice.cwiseProduct(scaled[b]);
-      }
-    double least = std::numeric_limits<double>::infinity();
-    for (size_t i = 0; i < n_squares; ++i) {
-      scratch_.q[i] = square[i].head<3>().sum();
-      scratch_.v[i] = square[i][3];
-      const double ratio = scratch_.q[i] / scratch_.v[i];
-      if (ratio < least) {
-        least = ratio;
-        where = int(i);
-      }
-    }
-    return least;
+           (overlap == Overlap::some && scratch_.bounds.at_most_one_stationary(std::max(0.0, least), least_ * least_));
   }
 
   struct Jet {
@@ -266,70 +224,13 @@ class SurfaceClosest {
     Jet jet;
   };
 
-  // Bounds of the second derivatives of f = q - m v over the patch, in its own parameters, and of v.
-  struct Curvature {
-    double uu, vv, uv;  // at least; at least; |f_uv| at most
-    double least_v, largest_v;
-  };
-
-  Curvature bound_curvature(double m) {
-    const int p = 2 * piece_->degree[0], q = 2 * piece_->degree[1], row = p + 1;
-    const double* Bp = detail::binomials(p);
-    const double* Bq = detail::binomials(q);
-    const double infinity = std::numeric_limits<double>::infinity();
-    Curvature bounds{infinity, infinity, 0, infinity, 0};
-    auto& f = scratch_.f;
-    f.resize(scratch_.q.size());
-    for (int j = 0, i = 0; j <= q; ++j)
-      for (int k = 0; k <= p; ++k, ++i) {
-        const double inverse = 1 / (Bp[k] * Bq[j]);
-        f[i] = (scratch_.q[i] - m * scratch_.v[i]) * inverse;
-        bounds.least_v = std::min(bounds.least_v, scratch_.v[i] * inverse);
-        bounds.largest_v = std::max(bounds.largest_v, scratch_.v[i] * inverse);
-      }
-    for (int j = 0; j <= q; ++j)
-      for (int k = 0; k <= p; ++k) {
-        const double* at = &f[j * row + k];
-        if (k + 2 <= p) bounds.uu = std::min(bounds.uu, at[0] - 2 * at[1] + at[2]);
-        if (j + 2 <= q) bounds.vv = std::min(bounds.vv, at[0] - 2 * at[row] + at[2 * row]);
-        if (k < p && j < q) bounds.uv = std::max(bounds.uv, std::abs(at[0] - at[1] - at[row] + at[row + 1]));
-      }
-    bounds.uu *= p * (p - 1);
-    bounds.vv *= q * (q - 1);
-    bounds.uv *= p * q;
-    return bounds;
-  }
-
-  // True if the patch has at most one stationary point with a value from m to the best one. Stationary points
-  // of q / v with the value M are those of q - M v, whose coefficients are linear in M.
-  bool at_most_one_stationary(double m) {
-    const int n_u = 2 * piece_->degree[0] + 1, n_f = int(scratch_.q.size());
-    double lower[2] = {1e300, 1e300}, upper[2] = {-1e300, -1e300};  // of f_u, f_v
-    double uu = 1e300, vv = 1e300, uv = 0;
-    for (const double value : {m, std::max(m, least_ * least_)}) {
-      const Curvature bounds = bound_curvature(value);
-      uu = std::min(uu, bounds.uu);
-      vv = std::min(vv, bounds.vv);
-      uv = std::max(uv, bounds.uv);
-      for (int i = 0; i < n_f; ++i)
-        for (int axis = 0; axis < 2; ++axis) {
-          const int next = axis == 0 ? i + 1 : i + n_u;
-          if (axis == 0 ? next % n_u == 0 : next >= n_f) continue;
-          lower[axis] = std::min(lower[axis], scratch_.f[next] - scratch_.f[i]);
-          upper[axis] = std::max(upper[axis], scratch_.f[next] - scratch_.f[i]);
-        }
-    }
-    const bool rises = lower[0] > 0 || lower[1] > 0, falls = upper[0] < 0 || upper[1] < 0;
-    return rises || falls || (uu > 0 && vv > 0 && uu * vv > uv * uv);
-  }
-
   // Lower bound of the distance from a minimum m of its square. If f = q - m v
   // is convex, f >= g.d + (a d_u^2 - 2 c |d_u d_v| + b d_v^2) / 2 with its
   // gradient g at the minimum and bounds a, b, c of its second derivatives:
   // nothing on the patch is closer than by rounding. Else by what f may fall over the whole patch.
   double bound_from_minimum(const Patch& patch, const Descent& found) {
     const double m = found.jet.offset.squaredNorm();
-    const auto [uu, vv, uv, least_v, largest_v] = bound_curvature(m);
+    const auto [uu, vv, uv, least_v, largest_v] = scratch_.bounds.curvature(m);
     Vec<2> g = 2 * largest_v * found.gradient.cwiseProduct(speed(patch, found.s)).cwiseAbs();
     for (int a = 0; a < 2; ++a)
       if (found.fixed[a]) g[a] = 0;  // f rises from this side of the patch
