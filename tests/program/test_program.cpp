@@ -48,7 +48,7 @@ struct Sem<3> {
   static constexpr const char* open_part =
       R"({"degree_u": 1, "degree_v": 1, "knots_u": [0, 0, 1, 1], "knots_v": [0, 0, 1, 1],
     "control_points": [[0, 0, 0], [1, 0, 0.3], [0, 1, 0], [1, 1, 0]]})";
-  static constexpr bool draws = false;
+  static constexpr bool draws = true;
 };
 
 struct Outcome {

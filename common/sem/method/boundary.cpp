@@ -3,16 +3,18 @@
 #include <numeric>
 
 #include "sem/base/error.h"
+#include "sem/method/trims.h"
 #include "sem/nurbs/refine.h"
 
 namespace sem {
 
 namespace {
 
-// The box of a part, from the control points; from those of refined pieces where weights differ so much
+// The box of a part, of its region if it is trimmed, else from the control points; from those of refined pieces where weights differ so much
 // that it may stay far from some of its control points.
 template <int Dim>
 Box<Dim> close_box(const PreparedNurbs<Dim - 1, Dim>& part) {
+  if (part.region) return part.region->box();
   const auto& weights = part.nurbs.weights;
   if (weights.maxCoeff() <= 4 * weights.minCoeff()) return part.box;
   Nurbs<Dim - 1, Dim> refined = part.nurbs;
@@ -25,13 +27,15 @@ Box<Dim> close_box(const PreparedNurbs<Dim - 1, Dim>& part) {
 }  // namespace
 
 template <int Dim>
-Boundary<Dim> make_boundary(const std::vector<std::vector<Nurbs<Dim - 1, Dim>>>& solids) {
+Boundary<Dim> make_boundary(const std::vector<std::vector<Nurbs<Dim - 1, Dim>>>& solids,
+                            const std::vector<TrimLoops>& trims) {
   Boundary<Dim> boundary;
   boundary.n_solids = int(solids.size());
   boundary.first_control.push_back(0);
   for (int s = 0; s < boundary.n_solids; ++s)
     for (const auto& shape : solids[s]) {
-      boundary.parts.push_back(prepare(shape));
+      auto& part = boundary.parts.emplace_back(prepare(shape));
+      if (!trims.empty()) part.region = make_region<Dim>(part, trims.at(boundary.parts.size() - 1));
       boundary.solid.push_back(s);
       boundary.first_control.push_back(boundary.first_control.back() +
                                        int(shape.control_points.cols()));
@@ -78,7 +82,7 @@ std::vector<std::vector<int>> coincident_controls(const Boundary<Dim>& boundary)
 
 #define SEM_INSTANTIATE(Dim)                                                                     \
   template Boundary<Dim> make_boundary<Dim>(                                                     \
-      const std::vector<std::vector<Nurbs<Dim - 1, Dim>>>&);                                     \
+      const std::vector<std::vector<Nurbs<Dim - 1, Dim>>>&, const std::vector<TrimLoops>&);                                     \
   template Points<Dim> rest_controls<Dim>(const Boundary<Dim>&);                                 \
   template std::vector<std::vector<int>> coincident_controls<Dim>(const Boundary<Dim>&);
 SEM_INSTANTIATE(2)

@@ -23,10 +23,12 @@ struct Boundary {
   double tolerance() const { return 1e-9 * box.diagonal(); }
 };
 
-/// Stacks and prepares the parts of every solid.
-/// Throws InputError (field `solids`) if there is no part at all.
+/// Stacks and prepares the parts of every solid. `trims`: the loops that each part is trimmed to, parts of all
+/// solids in one list; empty: no part is trimmed (trims.h; surfaces only).
+/// Throws InputError (field `solids`) if there is no part at all, and as make_region does.
 template <int Dim>
-Boundary<Dim> make_boundary(const std::vector<std::vector<Nurbs<Dim - 1, Dim>>>& solids);
+Boundary<Dim> make_boundary(const std::vector<std::vector<Nurbs<Dim - 1, Dim>>>& solids,
+                            const std::vector<TrimLoops>& trims = {});
 
 /// Rest control points, Dim by n_controls().
 template <int Dim>

@@ -34,6 +34,20 @@ void visit_box(const Nurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>& lower,
   }
 }
 
+// The same for a part as it is trimmed, or all of it.
+template <int Dim>
+void visit_part(const PreparedNurbs<Dim - 1, Dim>& part, int sign, const FluxVisitor<Dim>& visit) {
+  if (!part.region) {
+    for (const auto& piece : part.pieces) visit_box<Dim>(part.nurbs, piece.lower, piece.upper, sign, visit);
+    return;
+  }
+  const auto rule = part.region->rule(n_gauss);
+  for (size_t k = 0; k < rule.u.size(); ++k) {
+    const auto at = derivatives(part.nurbs, rule.u[k], 1);
+    visit(at.point, sign * rule.weight[k] * DimTraits<Dim>::area_normal(at.first)[0]);
+  }
+}
+
 // +1 / -1: the body is behind / before the normal at u; 0: on both sides or on neither.
 template <int Dim>
 int side(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
@@ -138,8 +152,7 @@ bool visit_boundary_flux(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
       available &= visit_visible(boundary, loops, shape, visit);
     } else {
       if (sign == 0) available = false;
-      for (const auto& piece : shape.pieces)
-        visit_box<Dim>(shape.nurbs, piece.lower, piece.upper, sign, visit);
+      visit_part<Dim>(shape, sign, visit);
     }
   };
   for (int i = 0; i < boundary.n_parts(); ++i)

@@ -21,7 +21,8 @@ struct Moments {
 /// Calls visit(X, flux) at quadrature points of all that bounds the body, parts and gaps' caps,
 /// with the orientations found in loops: sum of flux * P(X) = integral over the inside of dP/dX_0
 /// for any smooth P. Where solids overlap only the outer boundary of the union counts (its ends
-/// found by bisection). Gauss rule of 32 points on every Bezier piece: to rounding for polynomials
+/// found by bisection). Gauss rule of 32 points on every Bezier piece (trimmed
+/// parts: the region's): to rounding for polynomials
 /// of moderate degree. Returns false where the boundary does not determine the inside.
 template <int Dim>
 bool visit_boundary_flux(const Boundary<Dim>& boundary, const Loops<Dim>& loops,

@@ -13,8 +13,8 @@ namespace sem {
 /// 2D: ends of all Bezier pieces of parts and caps (joints, knots), their extrema, and crossings
 /// between pieces, bisected to rounding where the order of the pieces along two neighbouring
 /// rays differs.
-/// 3D: ends of the boxes of all Bezier pieces: complete for patches that lie in planes across
-/// the axes.
+/// 3D: ends of the boxes of all Bezier pieces, of trimmed parts and their corners: complete for polygons
+/// that lie in planes across the axes.
 template <int Dim>
 std::vector<double> critical_values(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
                                     int ray_axis, int transverse_axis);

@@ -9,45 +9,6 @@ namespace sem {
 namespace {
 
 constexpr double relative_rounding = 1e-12;
-constexpr double isolated =
-    1e-9;  // roots that stay together in a parameter interval this short count once
-
-int sign_changes(const std::vector<double>& c) {
-  int n = 0;
-  double previous = 0;
-  for (const double value : c) {
-    if (value == 0) continue;
-    n += previous != 0 && (value > 0) != (previous > 0);
-    previous = value;
-  }
-  return n;
-}
-
-// Roots on [0, 1] of a polynomial in Bernstein form, of its part over [lower, upper].
-void append_roots(const std::vector<double>& c, double lower, double upper,
-                  std::vector<double>& roots) {
-  const int degree = int(c.size()) - 1, n_changes = sign_changes(c);
-  if (n_changes == 0) return;
-  if (upper - lower < isolated) {
-    roots.push_back((lower + upper) / 2);
-    return;
-  }
-  if (n_changes == 1) {
-    std::vector<double> scratch(c.size());
-    const bool start_positive =
-        *std::find_if(c.begin(), c.end(), [](double v) { return v != 0; }) > 0;
-    roots.push_back(lower + (upper - lower) * detail::single_root(c.data(), degree, start_positive,
-                                                                  scratch.data()));
-    return;
-  }
-  std::vector<double> left(c.size()), right(c.size());
-  detail::split_half(c.data(), degree, left.data(), right.data());
-  const double middle = (lower + upper) / 2;
-  if (right[0] == 0) roots.push_back(middle);
-  append_roots(left, lower, middle, roots);
-  append_roots(right, middle, upper, roots);
-}
-
 // Bernstein coefficients of Y' W - Y W', the numerator of the derivative of the coordinate Y / W
 // along an axis, times 1 / degree: 2 degree of them.
 std::vector<double> slope_numerator(const BezierPiece<1, 2>& piece, int axis) {
@@ -76,7 +37,7 @@ void append_turns(const BezierPiece<1, 2>& piece, int axis, std::vector<double>&
       1e-15 * (piece.box.upper[axis] - piece.box.lower[axis]) * largest * largest;
   for (double& value : c)
     if (std::abs(value) <= rounding) value = 0;
-  append_roots(c, 0, 1, roots);
+  detail::append_roots(c, 0, 1, roots);
   for (const double s : roots) values.push_back(point(piece, Param<1>(s))[axis]);
 }
 

@@ -9,6 +9,12 @@ std::vector<double> critical_values<3>(const Boundary<3>& boundary, const Loops<
                                        int transverse_axis) {
   std::vector<double> all;
   const auto add = [&](const PreparedNurbs<2, 3>& shape) {
+    if (shape.region) {
+      all.push_back(shape.region->box().lower[transverse_axis]);
+      all.push_back(shape.region->box().upper[transverse_axis]);
+      for (const Vec<3>& corner : shape.region->corners()) all.push_back(corner[transverse_axis]);
+      return;
+    }
     for (const auto& piece : shape.pieces) {
       all.push_back(piece.box.lower[transverse_axis]);
       all.push_back(piece.box.upper[transverse_axis]);

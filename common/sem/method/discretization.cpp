@@ -51,7 +51,16 @@ void project_controls(Discretization<Dim>& d) {
   });
   d.projection = timed(d.cost, "projection",
                        [&] { return project(d.samples, d.origins, d.options.projection); });
-  d.unknowns = control_point_unknowns(d.boundary);
+  if (d.followers.empty()) {
+    d.unknowns = control_point_unknowns(d.boundary);
+    return;
+  }
+  std::vector<int> unknown_of;
+  d.unknowns = leading_unknowns(d.boundary, d.followers, unknown_of);
+  for (auto& fit : d.projection.parts)
+    for (int& column : fit.columns) column = unknown_of[column];
+  for (auto& group : d.projection.shared)
+    for (int& column : group.columns) column = unknown_of[column];
 }
 
 // The condensed one: the coefficients are the unknowns.
@@ -185,15 +194,17 @@ void require_thickness(const Boundary<Dim>& boundary) {
 
 template <int Dim>
 Discretization<Dim> discretize(const std::vector<std::vector<Nurbs<Dim - 1, Dim>>>& solids,
-                               const MethodOptions& options) {
+                               const MethodOptions& options, const std::vector<TrimLoops>& trims) {
   Discretization<Dim> d;
   const int n_threads = options.n_threads;
   d.options = options;
-  d.boundary = timed(d.cost, "parts", [&] { return make_boundary<Dim>(solids); });
+  d.boundary = timed(d.cost, "parts", [&] { return make_boundary<Dim>(solids, trims); });
   require_thickness(d.boundary);
   d.loops = timed(d.cost, "loops", [&] { return find_loops(d.boundary); });
   d.samples = timed(d.cost, "boundary samples",
                     [&] { return sample_boundary(d.boundary, options.sampling); });
+  d.followers = find_followers(d.boundary, d.samples);
+  substitute(d.followers, d.samples);
   d.rays = timed(d.cost, "rays",
                  [&] { return cast_rays(d.boundary, d.loops, options.rays, n_threads); });
   const bool resolved = options.interior_rule.rule == InteriorRule::resolved;
@@ -232,6 +243,7 @@ Discretization<Dim> discretize(const std::vector<std::vector<Nurbs<Dim - 1, Dim>
     d.divergence_correction = timed(d.cost, "divergence theorem", [&] { return correct_gradients(d); });
   if (options.formulation == Formulation::condensed)
     d.unknowns.S = boundary_output(d.samples, d.on_boundary, d.boundary.n_controls());
+  if (options.formulation == Formulation::condensed) follow(d.followers, d.unknowns.S);
   if (options.kept_columns < 0)
     throw InputError("", "method.kept_columns", std::to_string(options.kept_columns),
                      "0 (all) or more");
@@ -288,9 +300,9 @@ Eigen::MatrixXd field_at(const Discretization<Dim>& d, const BlendedField<Dim>& 
 }
 
 template Discretization<2> discretize<2>(const std::vector<std::vector<Nurbs<1, 2>>>&,
-                                         const MethodOptions&);
+                                         const MethodOptions&, const std::vector<TrimLoops>&);
 template Discretization<3> discretize<3>(const std::vector<std::vector<Nurbs<2, 3>>>&,
-                                         const MethodOptions&);
+                                         const MethodOptions&, const std::vector<TrimLoops>&);
 template BoundaryRule<2> boundary_rule<2>(const Discretization<2>&);
 template BoundaryRule<3> boundary_rule<3>(const Discretization<3>&);
 template int append_columns<2>(Discretization<2>&, int);

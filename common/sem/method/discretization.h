@@ -7,6 +7,7 @@
 #include "sem/method/blending_weights.h"
 #include "sem/method/coefficients.h"
 #include "sem/method/corners.h"
+#include "sem/method/followers.h"
 #include "sem/method/interior_rule.h"
 #include "sem/method/map.h"
 #include "sem/method/origins.h"
@@ -55,7 +56,8 @@ struct Discretization {
   MethodOptions options;
   Boundary<Dim> boundary;
   Loops<Dim> loops;
-  Samples<Dim> samples;
+  Samples<Dim> samples;      ///< J in terms of the control points that do not follow others
+  Followers<Dim> followers;  ///< control points that trims leave without samples
   Rays<Dim> rays;
   Quadrature<Dim> quadrature;
   InteriorReport<Dim> interior_report;
@@ -73,10 +75,10 @@ struct Discretization {
 };
 
 /// Runs the pipeline: parts -> samples -> quadrature -> weights -> origins ->
-/// projection -> map. Throws InputError as its stages do.
+/// projection -> map. `trims` of the parts as in make_boundary. Throws InputError as its stages do.
 template <int Dim>
 Discretization<Dim> discretize(const std::vector<std::vector<Nurbs<Dim - 1, Dim>>>& solids,
-                               const MethodOptions& options);
+                               const MethodOptions& options, const std::vector<TrimLoops>& trims = {});
 
 /// Points of the boundary at which loads and clamps act on the map, and their outward unit normals.
 template <int Dim>

@@ -18,9 +18,31 @@ struct FootMotion {
   Mat<Dim> position;                              // dX*/dX
 };
 
+// A foot on the curve that a part is trimmed along; none at its corners. r = X - X*.
 template <int Dim>
-FootMotion<Dim> foot_motion(const Derivatives<Dim - 1, Dim>& at, const Vec<Dim>& X) {
+FootMotion<Dim> motion_along(const BorderPoint<Dim - 1>& border, const Derivatives<Dim - 1, Dim>& at, const Vec<Dim>& r) {
+  FootMotion<Dim> motion{Eigen::Matrix<double, Dim - 1, Dim>::Zero(), Mat<Dim>::Zero()};
+  const Vec<Dim> T = at.first * border.first;
+  if (std::abs(r.dot(T)) > 1e-6 * r.norm() * T.norm()) return motion;
+  Vec<Dim> curvature = at.first * border.second;
+  for (int a = 0; a < Dim - 1; ++a)
+    for (int b = 0; b < Dim - 1; ++b)
+      curvature += border.first[a] * border.first[b] * at.second[second_index(a, b)];
+  motion.parameter = border.first * T.transpose() / (T.squaredNorm() - r.dot(curvature));
+  motion.position = at.first * motion.parameter;
+  return motion;
+}
+
+template <int Dim>
+FootMotion<Dim> foot_motion(const PreparedNurbs<Dim - 1, Dim>& part, const Param<Dim - 1>& u,
+                            const Derivatives<Dim - 1, Dim>& at, const Vec<Dim>& X) {
   const Vec<Dim> r = X - at.point;
+  const auto is_free = [&](int a) {
+    return std::abs(r.dot(at.first.col(a))) <= 1e-6 * r.norm() * at.first.col(a).norm();
+  };
+  if (part.region)
+    for (int a = 0; a < Dim - 1; ++a)
+      if (!is_free(a)) return motion_along<Dim>(part.region->border_near(u), at, r);
   // Directions in which the foot is stationary; in the others it is held by an end, an edge or a corner.
   Eigen::Matrix<double, Dim, Dim - 1> T = at.first;
   Eigen::Matrix<double, Dim - 1, Dim - 1> A;
@@ -28,7 +50,7 @@ FootMotion<Dim> foot_motion(const Derivatives<Dim - 1, Dim>& at, const Vec<Dim>&
     for (int b = 0; b < Dim - 1; ++b)
       A(a, b) = T.col(a).dot(T.col(b)) - r.dot(at.second[second_index(a, b)]);
   for (int a = 0; a < Dim - 1; ++a) {
-    if (std::abs(r.dot(T.col(a))) <= 1e-6 * r.norm() * T.col(a).norm()) continue;
+    if (is_free(a)) continue;
     T.col(a).setZero();
     A.row(a).setZero();
     A.col(a).setZero();
@@ -60,8 +82,9 @@ Mat<Dim> direction_derivative(const Vec<Dim>& n, double d, const Mat<Dim>& foot)
 
 // theta = f(d / alpha) h(side).
 template <int Dim>
-Vec<Dim> sided_gradient(const Nurbs<Dim - 1, Dim>& shape, const Distances<Dim>& distances, int pair,
+Vec<Dim> sided_gradient(const PreparedNurbs<Dim - 1, Dim>& part, const Distances<Dim>& distances, int pair,
                         const Vec<Dim>& X, const DistanceWeights<Dim>& theta) {
+  const auto& shape = part.nurbs;
   const double d = distances.closest[pair];
   const int outward = distances.outward[distances.part[pair]];
   const Slope profile = distance_profile(d / theta.cutoff);
@@ -72,7 +95,7 @@ Vec<Dim> sided_gradient(const Nurbs<Dim - 1, Dim>& shape, const Distances<Dim>& 
   if (step.derivative == 0) return gradient;
   const auto at = derivatives(shape, distances.foot_u[pair]);
   const Vec<Dim> N = unit_normal(shape, distances.foot_u[pair]);
-  const FootMotion<Dim> foot = foot_motion<Dim>(at, X);
+  const FootMotion<Dim> foot = foot_motion<Dim>(part, distances.foot_u[pair], at, X);
   const Mat<Dim> dn = direction_derivative<Dim>(n, d, foot.position);
   const Mat<Dim> dN = normal_derivative<Dim>(at, N) * foot.parameter;
   const Vec<Dim> from_n = dn.transpose() * N, from_N = dN.transpose() * n;
@@ -87,8 +110,9 @@ Vec<Dim> theta_gradient(const Boundary<Dim>& boundary, const Distances<Dim>& dis
   if (d == 0) return Vec<Dim>::Zero();
   const Vec<Dim> n = (X - distances.foot[pair]) / d;
   if (!(reach < cutoff)) return -n / cutoff;
-  const auto at = derivatives(boundary.parts[distances.part[pair]].nurbs, distances.foot_u[pair]);
-  const Mat<Dim> C = foot_motion<Dim>(at, X).position;
+  const auto& part = boundary.parts[distances.part[pair]];
+  const auto at = derivatives(part.nurbs, distances.foot_u[pair]);
+  const Mat<Dim> C = foot_motion<Dim>(part, distances.foot_u[pair], at, X).position;
   const Mat<Dim> dn = direction_derivative<Dim>(n, d, C);
   const auto hit = derivatives(boundary.parts[distances.hit_part[pair]].nurbs, distances.hit_u[pair]);
   const Vec<Dim> N = DimTraits<Dim>::area_normal(hit.first);
@@ -113,7 +137,7 @@ void distance_weight_gradients(const Boundary<Dim>& boundary, const Points<Dim>&
       const Vec<Dim> X = position.col(k);
       const int i = theta.part[e];
       if (distances.variant == DistanceWeight::sided)
-        theta.gradient.push_back(sided_gradient<Dim>(boundary.parts[i].nurbs, distances, pair, X, theta));
+        theta.gradient.push_back(sided_gradient<Dim>(boundary.parts[i], distances, pair, X, theta));
       else
         theta.gradient.push_back(theta_gradient<Dim>(boundary, distances, pair, X, theta.cutoff,
                                                      distances.variant == DistanceWeight::draft));

@@ -12,25 +12,29 @@ int root(std::vector<int>& parent, int i) {
   return i;
 }
 
+std::vector<Vec<3>> corners(const PreparedNurbs<2, 3>& part) {
+  if (part.region) return part.region->corners();
+  const int nu = n_control(part.nurbs, 0), nv = n_control(part.nurbs, 1);
+  std::vector<Vec<3>> result;
+  for (const int corner : {0, nu - 1, nu * (nv - 1), nu * nv - 1}) result.push_back(part.nurbs.control_points.col(corner));
+  return result;
+}
+
 // True if a corner of one patch lies on an edge of the other: shells grow across shared edges, also of
 // unequal patches, but not where two faces merely lie in each other.
 bool touch(const Boundary<3>& boundary, int i, int j) {
   const double tolerance = boundary.tolerance();
-  for (const auto& [a, b] : {std::pair{i, j}, std::pair{j, i}}) {
-    const auto& shape = boundary.parts[a].nurbs;
-    const int nu = n_control(shape, 0), nv = n_control(shape, 1);
-    for (const int corner : {0, nu - 1, nu * (nv - 1), nu * nv - 1}) {
-      const Vec<3> X = shape.control_points.col(corner);
+  for (const auto& [a, b] : {std::pair{i, j}, std::pair{j, i}})
+    for (const Vec<3>& X : corners(boundary.parts[a])) {
       const auto foot = closest_point(boundary.parts[b], X, 2 * tolerance);
-      if (foot.distance <= tolerance && on_border(boundary.parts[b].nurbs, foot.u, 1e-6)) return true;
+      if (foot.distance <= tolerance && on_border(boundary.parts[b], foot.u, 1e-6)) return true;
     }
-  }
   return false;
 }
 
 }  // namespace
 
-// Shells: patches that share a corner belong together. Gaps between patches
+// Shells: patches that share a corner belong together (trimmed ones: an end of a trim curve). Gaps between patches
 // are not capped; rays count what they cannot pair.
 template <>
 Loops<3> join_parts<3>(const Boundary<3>& boundary) {

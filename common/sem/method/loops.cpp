@@ -43,6 +43,7 @@ namespace {
 // Points on a part, some in each Bezier piece, away from its edges.
 template <int Dim>
 std::vector<Param<Dim - 1>> inner_parameters(const PreparedNurbs<Dim - 1, Dim>& part) {
+  if (part.region) return part.region->rule(1).u;
   std::vector<Param<Dim - 1>> result;
   for (const auto& piece : part.pieces)
     for (const double s : {0.47, 0.19, 0.83})

@@ -41,29 +41,41 @@ LineRule span_points(const Nurbs<Dim - 1, Dim>& nurbs, int axis, int n, SampleRu
   return rule;
 }
 
-// Appends the tensor-product samples of one part, some more than asked for per span and direction.
+// Tensor-product points of an untrimmed part.
 template <int Dim>
-void append_part(const Nurbs<Dim - 1, Dim>& nurbs, int part, int first_control,
-                 const SamplingOptions& options, int n_more, Samples<Dim>& out, std::vector<Vec<Dim>>& position, std::vector<double>& weight) {
-  constexpr int param_dim = Dim - 1;
-  std::array<LineRule, param_dim> rules;
+ParameterRule<Dim - 1> points_of_spans(const Nurbs<Dim - 1, Dim>& nurbs, const std::array<int, Dim - 1>& n_points,
+                                       SampleRule points) {
+  std::array<LineRule, Dim - 1> rules;
   int n = 1;
-  for (int a = 0; a < param_dim; ++a) {
-    const int n_points = options.points_per_span > 0 ? options.points_per_span : nurbs.degree[a] + 1;
-    rules[a] = span_points<Dim>(nurbs, a, n_points + n_more, options.rule);
+  for (int a = 0; a < Dim - 1; ++a) {
+    rules[a] = span_points<Dim>(nurbs, a, n_points[a], points);
     n *= int(rules[a].node.size());
   }
-  BasisValues<param_dim> basis;
-  for (int k = 0; k < n; ++k) {
-    Param<param_dim> u;
-    double w = 1;
-    for (int a = 0, rest = k; a < param_dim; ++a) {
+  ParameterRule<Dim - 1> result{std::vector<Param<Dim - 1>>(n), std::vector<double>(n, 1)};
+  for (int k = 0; k < n; ++k)
+    for (int a = 0, rest = k; a < Dim - 1; ++a) {
       const int size = int(rules[a].node.size());
-      u[a] = rules[a].node[rest % size];
-      w *= rules[a].weight[rest % size];
+      result.u[k][a] = rules[a].node[rest % size];
+      result.weight[k] *= rules[a].weight[rest % size];
       rest /= size;
     }
-    evaluate_basis(nurbs, u, 1, basis);
+  return result;
+}
+
+// Appends the samples of one part, some more than asked for per span and direction.
+template <int Dim>
+void append_part(const PreparedNurbs<Dim - 1, Dim>& shape, int part, int first_control,
+                 const SamplingOptions& options, int n_more, Samples<Dim>& out, std::vector<Vec<Dim>>& position, std::vector<double>& weight) {
+  constexpr int param_dim = Dim - 1;
+  const auto& nurbs = shape.nurbs;
+  std::array<int, param_dim> n_points;
+  for (int a = 0; a < param_dim; ++a)
+    n_points[a] = n_more + (options.points_per_span > 0 ? options.points_per_span : nurbs.degree[a] + 1);
+  const auto rule = shape.region ? shape.region->rule(*std::max_element(n_points.begin(), n_points.end()))
+                                 : points_of_spans<Dim>(nurbs, n_points, options.rule);
+  BasisValues<param_dim> basis;
+  for (size_t k = 0; k < rule.u.size(); ++k) {
+    evaluate_basis(nurbs, rule.u[k], 1, basis);
     Vec<Dim> X = Vec<Dim>::Zero();
     Eigen::Matrix<double, Dim, param_dim> tangents = Eigen::Matrix<double, Dim, param_dim>::Zero();
     for (size_t e = 0; e < basis.column.size(); ++e) {
@@ -75,10 +87,10 @@ void append_part(const Nurbs<Dim - 1, Dim>& nurbs, int part, int first_control,
       out.value.push_back(basis.value[e]);
     }
     out.row.push_back(int(out.column.size()));
-    out.u.push_back(u);
+    out.u.push_back(rule.u[k]);
     out.part.push_back(part);
     position.push_back(X);
-    weight.push_back(w * DimTraits<Dim>::area_normal(tangents).norm());
+    weight.push_back(rule.weight[k] * DimTraits<Dim>::area_normal(tangents).norm());
   }
 }
 
@@ -115,7 +127,7 @@ Samples<Dim> sample_boundary(const Boundary<Dim>& boundary, const SamplingOption
     samples.first.push_back(samples.size());
     for (const int n_more : {0, 2}) {
       truncate(samples, position, weight, size_t(samples.first.back()));
-      append_part<Dim>(boundary.parts[i].nurbs, i, boundary.first_control[i], options, n_more, samples,
+      append_part<Dim>(boundary.parts[i], i, boundary.first_control[i], options, n_more, samples,
                        position, weight);
       // The ends of spans may not count: that leaves too few in directions that collapse there.
       if (options.points_per_span > 0 || !some_vanish(weight, size_t(samples.first.back()))) break;

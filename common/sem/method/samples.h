@@ -41,7 +41,8 @@ struct Samples {
 /// By default Gauss-Lobatto points in every knot span, ends included, so that a span's
 /// ends are samples (both one-sided limits where the part may jump). With degree + 1 points per span
 /// J determines p wherever a span's basis does; two more are taken where the part's tangents vanish at an
-/// end, so that a sample there has no weight (a patch with a collapsed edge, a cusp). Throws InputError if points_per_span is 1 or negative.
+/// end, so that a sample there has no weight (a patch with a collapsed edge, a cusp). Trimmed parts: the rule of
+/// their region (trims.h) with as many points. Throws InputError if points_per_span is 1 or negative.
 template <int Dim>
 Samples<Dim> sample_boundary(const Boundary<Dim>& boundary, const SamplingOptions& options);
 

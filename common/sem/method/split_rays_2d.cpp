@@ -122,15 +122,7 @@ class RaySplitter {
       if (int(ray.intervals.size()) != band.n_intervals) return EndKind::smooth;
       at.push_back(ray.intervals[band.interval]);
     }
-    const auto moves_like_root = [&](double x0, double x1, double x2) {
-      const double near = std::abs(x1 - x0), far = std::abs(x2 - x1);
-      return near > 1e-13 * size_ && far < 2.8 * near;  // 2 for a root, 4 if smooth
-    };
-    const bool root = moves_like_root(at[0].begin, at[1].begin, at[2].begin) ||
-                      moves_like_root(at[0].end, at[1].end, at[2].end);
-    if (!root) return EndKind::smooth;
-    const double growth = (at[1].end - at[1].begin) / (at[0].end - at[0].begin);
-    return growth > 1.9 && growth < 2.1 ? EndKind::closing : EndKind::root;
+    return end_kind_of({at[0], at[1], at[2]}, 1e-13 * size_);
   }
 
   Strands<2> strands(const RayColumn& column, int n) const {
@@ -248,6 +240,18 @@ class RaySplitter {
 };
 
 }  // namespace
+
+EndKind end_kind_of(const std::array<RayInterval, 3>& at, double rounding) {
+  const auto moves_like_root = [&](double x0, double x1, double x2) {
+    const double near = std::abs(x1 - x0), far = std::abs(x2 - x1);
+    return near > rounding && far < 2.8 * near;  // 2 for a root, 4 if smooth
+  };
+  const bool root = moves_like_root(at[0].begin, at[1].begin, at[2].begin) ||
+                    moves_like_root(at[0].end, at[1].end, at[2].end);
+  if (!root) return EndKind::smooth;
+  const double growth = (at[1].end - at[1].begin) / (at[0].end - at[0].begin);
+  return growth > 1.9 && growth < 2.1 ? EndKind::closing : EndKind::root;
+}
 
 template <>
 std::vector<Cell<2>> ray_cells<2>(const Component<2>& component, int axis,

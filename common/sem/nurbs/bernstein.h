@@ -91,6 +91,40 @@ inline double single_root(const double* c, int degree, bool start_positive, doub
   return s;
 }
 
+/// Number of sign changes of the coefficients, zeros left out: at least that of the roots inside (0, 1).
+inline int sign_changes(const std::vector<double>& c) {
+  int n = 0;
+  double previous = 0;
+  for (const double value : c) {
+    if (value == 0) continue;
+    n += previous != 0 && (value > 0) != (previous > 0);
+    previous = value;
+  }
+  return n;
+}
+
+/// Appends the roots of f inside its interval, here named [lower, upper]; roots closer than 1e-9 count once.
+inline void append_roots(const std::vector<double>& c, double lower, double upper, std::vector<double>& roots) {
+  const int degree = int(c.size()) - 1, n_changes = sign_changes(c);
+  if (n_changes == 0) return;
+  if (upper - lower < 1e-9) {
+    roots.push_back((lower + upper) / 2);
+    return;
+  }
+  if (n_changes == 1) {
+    std::vector<double> scratch(c.size());
+    const bool start_positive = *std::find_if(c.begin(), c.end(), [](double v) { return v != 0; }) > 0;
+    roots.push_back(lower + (upper - lower) * single_root(c.data(), degree, start_positive, scratch.data()));
+    return;
+  }
+  std::vector<double> left(c.size()), right(c.size());
+  split_half(c.data(), degree, left.data(), right.data());
+  const double middle = (lower + upper) / 2;
+  if (right[0] == 0) roots.push_back(middle);
+  append_roots(left, lower, middle, roots);
+  append_roots(right, middle, upper, roots);
+}
+
 /// All Bernstein polynomials of a degree at s and their derivatives up to
 /// `order` (0 to 2): out[m][i], rows of length `row`.
 inline void bernstein_basis(int degree, double s, int order, int row, double* out) {

@@ -20,7 +20,7 @@ struct ClosestPoint {
 /// (distance + size of the part). Among points as close as that: 2D, the one
 /// of smallest parameter; 3D, the same one for the same input. 3D gives up
 /// the certificate, not the answer, after 50000 patches of a piece, which
-/// only a whole curve of equally close points can take.
+/// only a whole curve of equally close points can take. Of a trimmed part: the closest point of its region.
 ///
 /// If no point is within `cutoff`, the distance may be returned as infinity,
 /// with NaN for u and point. At a jump of the part, u is the knot and point

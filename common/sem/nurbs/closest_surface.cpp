@@ -3,6 +3,7 @@
 
 #include "sem/nurbs/bernstein.h"
 #include "sem/nurbs/closest.h"
+#include "sem/nurbs/distance_bounds.h"
 #include "sem/nurbs/kernels.h"
 
 // Branch and bound on patches. A first lower bound of the distance comes from a
@@ -14,11 +15,14 @@
 // patch runs in the parameter t that makes the weights of its ends equal (Moebius),
 //   s = lower + (upper - lower) r t / (1 - t + r t).
 // Halved there, weights of 1, w, 1 become those of 1, about sqrt(w / 2), 1.
+// Trimmed: where the whole surface's closest point is not in the region, the border's closest point comes
+// first. Nothing else counts but stationary points inside the region, so a patch that the border runs through
+// is also done when q / v has none there, or only the one found.
 
 namespace sem {
 namespace {
 
-using Vec4 = Eigen::Vector4d;  // w (P - X), w
+using detail::Vec4;  // w (P - X), w
 
 constexpr int max_patches = 50000;  // only a curve of equally close points needs so many
 
@@ -35,15 +39,15 @@ struct Patch {
 struct Scratch {
   std::vector<Vec4> coefficients;  // of the whole piece, then of the stack
   std::vector<Patch> patches;
-  std::vector<Vec4> scaled, square;
-  std::vector<double> f, q, v;  // of a patch; q and v times the binomials
+  detail::DistanceBounds bounds;   // of a patch
   std::vector<std::pair<double, int>> order;
 };
 
 class SurfaceClosest {
  public:
-  SurfaceClosest(const PreparedNurbs<2, 3>& part, const Vec<3>& X, double cutoff, Scratch& scratch)
-      : part_(part), X_(X), scratch_(scratch), least_(cutoff), size_(part.box.diagonal()) {
+  SurfaceClosest(const PreparedNurbs<2, 3>& part, const Region<2, 3>* region, const Vec<3>& X, double cutoff,
+                 Scratch& scratch)
+      : part_(part), region_(region), X_(X), scratch_(scratch), least_(cutoff), size_(part.box.diagonal()) {
     best_.u.setConstant(std::numeric_limits<double>::quiet_NaN());
     best_.point.setConstant(std::numeric_limits<double>::quiet_NaN());
     best_.distance = std::numeric_limits<double>::infinity();
@@ -52,6 +56,13 @@ class SurfaceClosest {
   ClosestPoint<3> run() {
     auto& order = scratch_.order;
     order.clear();
+    if (region_) {
+      const auto border = region_->closest_on_border(X_, least_);
+      if (border.distance <= least_) {
+        best_ = border;
+        least_ = border.distance;
+      }
+    }
     for (size_t k = 0; k < part_.pieces.size(); ++k) {
       const Box<3>& box = part_.pieces[k].box;
       const Vec<3> outside = (box.lower - X_).cwiseMax(X_ - box.upper).cwiseMax(0.0);
@@ -188,54 +199,15 @@ class SurfaceClosest {
   // True if no point of the patch is better than the best one now known.
   bool finish(const Patch& patch, const Vec4* c) {
     int where = 0;
-    const double least = square_distance(c, where);
+    const double least = scratch_.bounds.set(c, piece_->degree, part_.power != nullptr, where);
     if (hopeless(std::sqrt(std::max(0.0, least)))) return true;
+    const Overlap overlap = region_ ? region_->overlap(global(patch.lower), global(patch.upper)) : Overlap::all;
+    if (overlap == Overlap::none) return true;
     const int p = 2 * piece_->degree[0], q = 2 * piece_->degree[1];
     const Vec<2> share(double(where % (p + 1)) / p, double(where / (p + 1)) / q);
-    return hopeless(bound_from_minimum(patch, descend(parameter(patch, share), patch)));
-  }
-
-  // Coefficients of q and v, of degree (2p, 2q) and times its binomials; the least q_i / v_i.
-  double square_distance(const Vec4* c, int& where) {
-    const int p = piece_->degree[0], q = piece_->degree[1], row = 2 * p + 1;
-    const double* Bp = detail::binomials(p);
-    const double* Bq = detail::binomials(q);
-    const size_t n_squares = size_t(row) * (2 * q + 1);
-    scratch_.q.resize(n_squares);
-    scratch_.v.resize(n_squares);
-    if (part_.power) {  // degree <= 12
-      alignas(32) double scaled[4 * 13 * 13];
-      for (int j = 0, a = 0; j <= q; ++j)
-        for (int i = 0; i <= p; ++i, ++a)
-          Eigen::Map<Vec4, Eigen::Aligned16>(scaled + 4 * a) = Bp[i] * Bq[j] * c[a];
-      return detail::kernels->square_distance(scaled, p, q, scratch_.q.data(), scratch_.v.data(),
-                                              &where);
-    }
-    auto& scaled = scratch_.scaled;
-    auto& square = scratch_.square;
-    scaled.resize(n_);
-    for (int j = 0, a = 0; j <= q; ++j)
-      for (int i = 0; i <= p; ++i, ++a) scaled[a] = Bp[i] * Bq[j] * c[a];
-    square.assign(n_squares, Vec4::Zero());
-    for (int j = 0, a = 0; j <= q; ++j)
-      for (int i = 0; i <= p; ++i, ++a) {
-        square[2 * (j * row + i)] += scaled[a].cwiseProduct(scaled[a]);
-        const Vec4 twice = 2 * scaled[a];
-        for (int l = j, b = a + 1; l <= q; ++l)
-          for (int k = l == j ? i + 1 : 0; k <= p; ++k, ++b)
-            square[(j + l) * row + i + k] += twice.cwiseProduct(scaled[b]);
-      }
-    double least = std::numeric_limits<double>::infinity();
-    for (size_t i = 0; i < n_squares; ++i) {
-      scratch_.q[i] = square[i].head<3>().sum();
-      scratch_.v[i] = square[i][3];
-      const double ratio = scratch_.q[i] / scratch_.v[i];
-      if (ratio < least) {
-        least = ratio;
-        where = int(i);
-      }
-    }
-    return least;
+    const Descent found = descend(parameter(patch, share), patch);
+    return hopeless(bound_from_minimum(patch, found)) ||
+           (overlap == Overlap::some && scratch_.bounds.at_most_one_stationary(std::max(0.0, least), least_ * least_));
   }
 
   struct Jet {
@@ -258,30 +230,7 @@ class SurfaceClosest {
   // nothing on the patch is closer than by rounding. Else by what f may fall over the whole patch.
   double bound_from_minimum(const Patch& patch, const Descent& found) {
     const double m = found.jet.offset.squaredNorm();
-    const int p = 2 * piece_->degree[0], q = 2 * piece_->degree[1], row = p + 1;
-    const double* Bp = detail::binomials(p);
-    const double* Bq = detail::binomials(q);
-    auto& f = scratch_.f;
-    f.resize(scratch_.q.size());
-    double least_v = std::numeric_limits<double>::infinity(), largest_v = 0;
-    for (int j = 0, i = 0; j <= q; ++j)
-      for (int k = 0; k <= p; ++k, ++i) {
-        const double inverse = 1 / (Bp[k] * Bq[j]);
-        f[i] = (scratch_.q[i] - m * scratch_.v[i]) * inverse;
-        least_v = std::min(least_v, scratch_.v[i] * inverse);
-        largest_v = std::max(largest_v, scratch_.v[i] * inverse);
-      }
-    double uu = std::numeric_limits<double>::infinity(), vv = uu, uv = 0;
-    for (int j = 0; j <= q; ++j)
-      for (int k = 0; k <= p; ++k) {
-        const double* at = &f[j * row + k];
-        if (k + 2 <= p) uu = std::min(uu, at[0] - 2 * at[1] + at[2]);
-        if (j + 2 <= q) vv = std::min(vv, at[0] - 2 * at[row] + at[2 * row]);
-        if (k < p && j < q) uv = std::max(uv, std::abs(at[0] - at[1] - at[row] + at[row + 1]));
-      }
-    uu *= p * (p - 1);
-    vv *= q * (q - 1);
-    uv *= p * q;
+    const auto [uu, vv, uv, least_v, largest_v] = scratch_.bounds.curvature(m);
     Vec<2> g = 2 * largest_v * found.gradient.cwiseProduct(speed(patch, found.s)).cwiseAbs();
     for (int a = 0; a < 2; ++a)
       if (found.fixed[a]) g[a] = 0;  // f rises from this side of the patch
@@ -411,6 +360,7 @@ class SurfaceClosest {
     const double length = step.cwiseAbs().maxCoeff();
     if (!(length > 1e-16 && length < 1e-4)) return false;
     const Vec<2> next = (best_s_ - step).cwiseMax(0.0).cwiseMin(1.0);
+    if (region_ && !region_->contains(global(next))) return false;
     const Vec<3> offset = evaluate(next).offset;
     if (!(offset.norm() <= best_.distance + 1e-15 * (best_.distance + size_))) return false;
     set_best(next, offset);
@@ -427,6 +377,7 @@ class SurfaceClosest {
   void offer(const Vec<2>& s, const Vec<3>& offset) {
     const double distance = offset.norm();
     if (!(distance <= least_) || distance == best_.distance) return;
+    if (region_ && !region_->contains(global(s))) return;
     least_ = distance;
     set_best(s, offset);
   }
@@ -436,12 +387,19 @@ class SurfaceClosest {
     best_s_ = s;
     best_.distance = offset.norm();
     best_.point = X_ + offset;
+    best_.u = global(s);
+  }
+
+  // The part's parameters at s of the piece.
+  Param<2> global(const Vec<2>& s) const {
+    Param<2> u;
     for (int a = 0; a < 2; ++a)
-      best_.u[a] = s[a] == 1 ? piece_->upper[a]
-                             : piece_->lower[a] + s[a] * (piece_->upper[a] - piece_->lower[a]);
+      u[a] = s[a] == 1 ? piece_->upper[a] : piece_->lower[a] + s[a] * (piece_->upper[a] - piece_->lower[a]);
+    return u;
   }
 
   const PreparedNurbs<2, 3>& part_;
+  const Region<2, 3>* region_;  // null: all of the part
   const Vec<3> X_;
   Scratch& scratch_;
   double least_, size_;
@@ -457,7 +415,9 @@ class SurfaceClosest {
 template <>
 ClosestPoint<3> closest_point(const PreparedNurbs<2, 3>& part, const Vec<3>& X, double cutoff) {
   thread_local Scratch scratch;
-  return SurfaceClosest(part, X, cutoff, scratch).run();
+  const auto whole = SurfaceClosest(part, nullptr, X, cutoff, scratch).run();
+  if (!part.region || !(whole.distance <= cutoff) || part.region->contains(whole.u)) return whole;
+  return SurfaceClosest(part, part.region.get(), X, cutoff, scratch).run();
 }
 
 }  // namespace sem

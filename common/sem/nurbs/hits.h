@@ -25,7 +25,7 @@ struct Hit {
   bool along;        ///< an end of a stretch where the part runs along the line
 };
 
-/// Appends all hits of the part with the line, t in [t_min, t_max], sorted
+/// Appends all hits of the part (of its region, where it is trimmed) with the line, t in [t_min, t_max], sorted
 /// by t. End points and tangencies are included; where the part passes
 /// within rounding (about 10 eps of the largest coordinate difference) it
 /// counts as touching. A hit on a joint of two pieces, also on the joint

@@ -404,6 +404,10 @@ void append_hits<3>(const PreparedNurbs<2, 3>& part, const Line<3>& line, double
   out.erase(std::remove_if(out.begin() + first, out.end(),
                            [&](const Hit<3>& hit) { return !(hit.t >= t_min && hit.t <= t_max); }),
             out.end());
+  if (part.region)
+    out.erase(std::remove_if(out.begin() + first, out.end(),
+                             [&](const Hit<3>& hit) { return !part.region->contains(hit.u); }),
+              out.end());
   std::sort(out.begin() + first, out.end(), [](const Hit<3>& a, const Hit<3>& b) {
     return a.t != b.t ? a.t < b.t : a.u[0] < b.u[0];
   });

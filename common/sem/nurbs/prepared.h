@@ -6,6 +6,7 @@
 
 #include "sem/nurbs/basis.h"
 #include "sem/nurbs/kernel_forms.h"
+#include "sem/nurbs/region.h"
 
 namespace sem {
 
@@ -34,6 +35,8 @@ struct PreparedNurbs {
   Box<Dim> box;                                       ///< of all pieces
   std::shared_ptr<const detail::PowerForm> power;     ///< for the kernels; null: too inaccurate
   std::shared_ptr<const detail::FootCells> feet;      ///< for closest points; curves in the plane
+  std::shared_ptr<const Region<ParamDim, Dim>> region;  ///< what the part is trimmed to; null: all of its domain.
+                                                        ///< Hits and closest points keep to it.
 };
 
 /// Cuts a NURBS into Bezier pieces. Neighbouring pieces share control points

@@ -48,6 +48,10 @@ void halve_parts(Scene<Dim>& scene) {
     for (int axis = 0; axis < Dim - 1; ++axis) {
       std::vector<ScenePart<Dim>> halves;
       for (const auto& part : solid.parts) {
+        if (!part.trims.empty()) {  // stay whole: halves would need halves of the loops
+          halves.push_back(part);
+          continue;
+        }
         const Interval u = domain(part.shape, axis);
         int n = 0;
         for (const auto& shape : split_at(part.shape, axis, (u.lower + u.upper) / 2)) {

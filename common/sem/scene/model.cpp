@@ -93,13 +93,17 @@ class Builder {
 
   void discretize_parts() {
     std::vector<std::vector<Nurbs<Dim - 1, Dim>>> solids;
+    std::vector<TrimLoops> trims;
     for (const auto& solid : scene_.solids) {
       solids.emplace_back();
-      for (const auto& part : solid.parts) solids.back().push_back(part.shape);
+      for (const auto& part : solid.parts) {
+        solids.back().push_back(part.shape);
+        trims.push_back(part.trims);
+      }
     }
     MethodOptions options = scene_.method;
     options.stiffness = part_stiffness();
-    model_->discretization = discretize<Dim>(solids, options);
+    model_->discretization = discretize<Dim>(solids, options, trims);
     model_->cost = model_->discretization.cost;
   }
 
@@ -213,8 +217,10 @@ class Builder {
       return columns;
     }
     const Points<Dim> p = rest_controls(model_->discretization.boundary);
+    const auto& d = model_->discretization;
     for (const int control : model_->held[i].controls)
-      columns.push_back({unknown_of_control(model_->discretization.unknowns, control).value(), pin.axes, p.col(control) - pin.center, 1});
+      if (!d.followers.follows(control))
+        columns.push_back({unknown_of_control(d.unknowns, control).value(), pin.axes, p.col(control) - pin.center, 1});
     return columns;
   }
 
@@ -266,8 +272,10 @@ class Builder {
     for (size_t i = 0; i < scene_.pins.size(); ++i) {
       const std::string field = "pins[" + std::to_string(i) + "]";
       model_->held.push_back({select_controls(scene_.pins[i].where, field), {}});
-      if (model_->held.back().controls.empty())
-        throw InputError(file_, field, "no control point", "a part, box or index that matches at least one");
+      const auto& controls = model_->held.back().controls;
+      if (std::all_of(controls.begin(), controls.end(), [&](int c) { return d.followers.follows(c); }))
+        throw InputError(file_, field, controls.empty() ? "no control point" : "only control points that are trimmed away",
+                         "a part, box or index that matches at least one");
     }
     if (!condensed()) return;
     for (const auto& pin : scene_.pins) first_pin_column_.push_back(append_columns(d, pin.rotation.isZero(0) ? 1 : 1 + Dim));
@@ -287,7 +295,7 @@ class Builder {
         if (std::any_of(group.begin(), group.end(), [&](int c) { return covered.count(c) > 0; }))
           covered.insert(group.begin(), group.end());
       for (const int control : model_->held[i].controls)
-        if (!covered.count(control)) springs.push_back(spring(control, int(i)));
+        if (!covered.count(control) && !d.followers.follows(control)) springs.push_back(spring(control, int(i)));
     }
     return Clamps<Dim>(clamped_points(rule, held_samples), std::move(springs));
   }

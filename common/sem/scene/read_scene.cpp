@@ -6,6 +6,7 @@
 #include <set>
 
 #include "sem/base/error.h"
+#include "sem/method/trims.h"
 #include "sem/scene/files.h"
 
 namespace sem {
@@ -22,12 +23,10 @@ void describe_material(Fields& fields, Material& m) {
   fields.number("density", m.density, at_least(0), "kg/m^3", "rho, mass per rest volume (2D: per unit thickness)");
 }
 
-template <int Dim>
-void describe_part(Fields& fields, ScenePart<Dim>& part) {
-  fields.text("name", part.name, "unique in the solid; the text before any dot is a group that the part belongs to");
-  auto& shape = part.shape;
-  for (int axis = 0; axis < Dim - 1; ++axis) {
-    const std::string suffix = DimTraits<Dim>::parameter_suffix[axis];
+template <int ParamDim, int Dim>
+void describe_nurbs(Fields& fields, Nurbs<ParamDim, Dim>& shape, const char* unit, const char* meaning) {
+  for (int axis = 0; axis < ParamDim; ++axis) {
+    const std::string suffix = DimTraits<ParamDim + 1>::parameter_suffix[axis];
     const std::string degree = "degree" + suffix, knots = "knots" + suffix;
     fields.require(degree.c_str());
     fields.integer(degree.c_str(), shape.degree[axis], 1, max_nurbs_degree, "degree of the NURBS");
@@ -36,7 +35,7 @@ void describe_part(Fields& fields, ScenePart<Dim>& part) {
                    "non-decreasing, as many as control points along the parameter + degree + 1");
   }
   fields.require("control_points");
-  fields.points<Dim>("control_points", shape.control_points, "m", "at rest; the first parameter runs fastest");
+  fields.points<Dim>("control_points", shape.control_points, unit, meaning);
   const int n = int(shape.control_points.cols());
   std::vector<double> weights(shape.weights.begin(), shape.weights.end());
   if (fields.optional("weights", !shape.weights.isOnes(0)))
@@ -46,6 +45,24 @@ void describe_part(Fields& fields, ScenePart<Dim>& part) {
   if (fields.reading()) {
     shape.weights = Eigen::Map<const Eigen::VectorXd>(weights.data(), Eigen::Index(weights.size()));
     check(shape, fields.file(), fields.path());
+  }
+}
+
+void describe_trim_loop(Fields& fields, std::vector<Nurbs<1, 2>>& loop) {
+  fields.items<Nurbs<1, 2>>("curves", loop, "that close the loop, in any order and orientation",
+                            [](Fields& f, Nurbs<1, 2>& curve) {
+                              describe_nurbs(f, curve, "", "(u, v) in the part's domain");
+                            });
+}
+
+template <int Dim>
+void describe_part(Fields& fields, ScenePart<Dim>& part) {
+  fields.text("name", part.name, "unique in the solid; the text before any dot is a group that the part belongs to");
+  describe_nurbs(fields, part.shape, "m", "at rest; the first parameter runs fastest");
+  if (DimTraits<Dim>::param_dim == 2 && fields.optional("trims", !part.trims.empty())) {
+    fields.items<std::vector<Nurbs<1, 2>>>("trims", part.trims, "loops that the part is trimmed to, nested by parity; absent: all of its domain",
+                                           describe_trim_loop);
+    if (fields.reading()) check_trims<Dim>(part.shape, part.trims, fields.file(), fields.path("trims"));
   }
   if (fields.optional("material", part.material.has_value())) {
     if (!part.material) part.material.emplace();

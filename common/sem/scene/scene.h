@@ -25,7 +25,8 @@ template <int Dim>
 struct ScenePart {
   std::string name;  ///< "left.1"; the text before a dot is a group
   Nurbs<Dim - 1, Dim> shape;
-  std::optional<Material> material;  ///< in place of the solid's, where this part's distance weight (theta) is the largest
+  std::optional<Material> material = {};  ///< in place of the solid's, where this part's distance weight (theta) is the largest
+  TrimLoops trims = {};  ///< 3D: what the shape is trimmed to (method/trims.h); none: all of it
 };
 
 template <int Dim>
