@@ -22,7 +22,10 @@ inline std::vector<PreparedNurbs<2, 3>> ball_with_poles(double radius) {
   half.control_points << 0, radius, radius, radius, 0, -radius, -radius, 0, radius, radius;
   half.weights.resize(5);
   half.weights << 1, h, 1, h, 1;
-  return prepared(shapes3d::make_parts(shapes3d::Revolution{{{"ball", half, {}}}}));
+  ScenePart<2> profile;
+  profile.name = "ball";
+  profile.shape = half;
+  return prepared(shapes3d::make_parts(shapes3d::Revolution{{profile}}));
 }
 
 inline void add(render::RenderScene& scene, const std::vector<PreparedNurbs<2, 3>>& surfaces,
