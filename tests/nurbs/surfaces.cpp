@@ -349,3 +349,29 @@ TEST_CASE("hits with weights from 1e-6 to 1e6: a line across a swept conic meets
       CHECK(std::abs(hits[1].t - (0.5 + half)) < 1e-9);
     }
 }
+
+TEST_CASE("lines through and past a pole: a fan over a quarter disc is hit once where the disc is, at ordinary cost") {
+  Nurbs<2, 3> quarter;  // edge u = 0 collapsed at the centre
+  quarter.degree = {1, 2};
+  quarter.knots = {std::vector<double>{0, 0, 1, 1}, std::vector<double>{0, 0, 0, 1, 1, 1}};
+  quarter.control_points.resize(3, 6);
+  quarter.control_points << 0, 1, 0, 1, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0;
+  quarter.weights = Eigen::VectorXd::Ones(6);
+  quarter.weights[2] = quarter.weights[3] = std::sqrt(0.5);
+  const auto fan = prepare(quarter);
+  std::mt19937 random(11);
+  const auto queries = [&](double distance) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int k = 0; k < 200; ++k) {
+      const Vec<3> from_pole = distance * random_vector(random).cwiseProduct(Vec<3>(1, 1, 0));
+      Vec<3> direction = random_vector(random);
+      direction[2] += 1.5;
+      const size_t expected = distance == 0 || (from_pole[0] > 0 && from_pole[1] > 0 && from_pole.norm() < 1);
+      CAPTURE(from_pole);
+      REQUIRE(all_hits(fan, {from_pole, direction}).size() == expected);
+    }
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const double ordinary = queries(0.5);
+  for (const double distance : {1e-3, 1e-6, 0.0}) CHECK(queries(distance) < 300 * ordinary);
+}

@@ -91,6 +91,7 @@ class SurfaceHits {
       const Vec<3> X = piece.points.col(i) - line_.origin;
       for (int k = 0; k < 2; ++k) whole[i][k] = piece.weights[i] * normals_.col(k).dot(X);
     }
+    find_collapsed_edges();
     scratch_.patches[0] = {{0, 0}, {1, 1}, {0, 0}};
     n_patches_ = 0;
     bool along = false;
@@ -112,6 +113,26 @@ class SurfaceHits {
       ++n;
     }
     if (along) add_edges();
+  }
+
+  // Edges of the piece that are one point (poles): all of such an edge is a root if the point is on the line.
+  void find_collapsed_edges() {
+    const int n_u = piece_->degree[0] + 1;
+    const int corner[2] = {n_ - n_u, n_u - 1};  // first point of the far edge of each axis, 1 and 0
+    for (int axis = 0; axis < 2; ++axis)
+      for (int side = 0; side < 2; ++side) {
+        const int first = side == 0 ? 0 : corner[1 - axis], step = axis == 0 ? n_u : 1;
+        bool collapsed = true;
+        for (int k = 1; k <= piece_->degree[1 - axis]; ++k)
+          collapsed &= (piece_->points.col(first + k * step) - piece_->points.col(first)).cwiseAbs().maxCoeff() <= tolerance_;
+        collapsed_[axis][side] = collapsed;
+      }
+  }
+
+  bool touches_collapsed_edge(const Patch& patch) const {
+    for (int axis = 0; axis < 2; ++axis)
+      if ((collapsed_[axis][0] && patch.lower[axis] == 0) || (collapsed_[axis][1] && patch.upper[axis] == 1)) return true;
+    return false;
   }
 
   // Whether a linear combination of f and g has no root by its hull.
@@ -330,8 +351,9 @@ class SurfaceHits {
           variation[axis] =
               std::max(variation[axis], piece_->degree[axis] * std::abs(c[next][k] - c[i][k]));
       }
-    // Not the longest way in the plane alone: keep patches of bounded shape.
-    if (std::abs(patch.halvings[0] - patch.halvings[1]) > 3)
+    // Not the longest way in the plane alone: keep patches of bounded shape. At a pole that would split the edge
+    // that is one point for ever.
+    if (!touches_collapsed_edge(patch) && std::abs(patch.halvings[0] - patch.halvings[1]) > 3)
       return patch.halvings[0] < patch.halvings[1] ? 0 : 1;
     return variation[0] >= variation[1] ? 0 : 1;
   }
@@ -343,6 +365,7 @@ class SurfaceHits {
   double tolerance_ = 0, f_tolerance_ = 0;
   const BezierPiece<2, 3>* piece_ = nullptr;
   int n_ = 0, n_patches_ = 0;
+  bool collapsed_[2][2] = {};  // [axis][side]
 };
 
 // The same point found from neighbouring patches.
