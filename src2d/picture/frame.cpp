@@ -50,8 +50,8 @@ class FramePainter::Drawing {
     canvas_.pop_clip();
     canvas_.stroke_box(area_, {.color = label_ink, .width = unit_});
     picture::draw_titles(canvas_, area_, scene_.name, scene_.analysis, scene_.output, state_,
-                         n_inverted_);
-    if (limit > 0) picture::draw_stress_bar(canvas_, area_, limit, largest_, scene_.analysis);
+                         scale_.n_inverted);
+    if (limit > 0) picture::draw_stress_bar(canvas_, area_, limit, scale_.largest, scene_.analysis);
   }
 
  private:
@@ -101,15 +101,8 @@ class FramePainter::Drawing {
   double stresses() {
     const auto& quadrature = model_.discretization.quadrature;
     const Eigen::VectorXd stress = von_mises(model_, state_.z);
-    for (const double value : stress) {
-      if (std::isnan(value))
-        ++n_inverted_;
-      else
-        largest_ = std::max(largest_, value);
-    }
-    const double limit = setup_.stress_limit > 0 ? setup_.stress_limit
-                         : largest_ > 0          ? round_up(largest_)
-                                                 : 0;
+    scale_ = stress_scale(stress, setup_.stress_limit);
+    const double limit = scale_.limit;
     const Points<2> x = evaluate(model_.discretization.interior, state_.z);
     for (int k = 0; k < quadrature.size(); ++k) {
       const double size = std::clamp(0.8 * std::sqrt(quadrature.weight[k]) * view_.scale(),
@@ -178,8 +171,7 @@ class FramePainter::Drawing {
   const double unit_;  // pixels
   const Box<2> area_;  // of the world, in pixels
   const View2 view_;
-  double largest_ = 0;  // Pa
-  int n_inverted_ = 0;
+  StressScale scale_;
 };
 
 Box<2> FramePainter::area(const Canvas& canvas) {

@@ -90,8 +90,8 @@ class SolidPainter::Drawing {
     canvas_.image(setup_.renderer.render(result_, camera, options), area_);
     triad(camera);
     picture::draw_titles(canvas_, area_, scene_.name, scene_.analysis, scene_.output, state_,
-                         n_inverted_);
-    if (limit > 0) picture::draw_stress_bar(canvas_, area_, limit, largest_, scene_.analysis);
+                         scale_.n_inverted);
+    if (limit > 0) picture::draw_stress_bar(canvas_, area_, limit, scale_.largest, scene_.analysis);
   }
 
  private:
@@ -107,15 +107,8 @@ class SolidPainter::Drawing {
   // Adds the parts. Returns where the colour scale ends.
   double surfaces() {
     const Eigen::VectorXd stress = von_mises(model_, state_.z);
-    for (const double value : stress) {
-      if (std::isnan(value))
-        ++n_inverted_;
-      else
-        largest_ = std::max(largest_, value);
-    }
-    const double limit = setup_.stress_limit > 0 ? setup_.stress_limit
-                         : largest_ > 0          ? round_up(largest_)
-                                                 : 0;
+    scale_ = stress_scale(stress, setup_.stress_limit);
+    const double limit = scale_.limit;
     const auto& b = model_.discretization.boundary;
     render::Lines ends{{}, picture::ink, 1.2 * unit_},
         rest{{}, {0.7, 0.7, 0.72}, 0.7 * unit_, 0.25};
@@ -195,8 +188,7 @@ class SolidPainter::Drawing {
   const Box<2> area_;  // of the world, in pixels
   const render::Flatness flatness_;
   render::RenderScene result_;
-  double largest_ = 0;
-  int n_inverted_ = 0;
+  StressScale scale_;
 };
 
 SolidPainter::SolidPainter(const Scene<3>& scene) : scene_(scene) {}

@@ -103,35 +103,10 @@ MatrixXd gradient_gram_matrix(const Map<Dim>& map, const VectorXd& volume, doubl
   return G;
 }
 
-// The first of the entries that are largest up to rounding: symmetric bodies have many, and the choice
-// must not hang on the last bit.
-int first_largest(const VectorXd& values) {
-  const double most = values.maxCoeff(), nearly = most - 1e-6 * std::abs(most);
-  return int(std::find_if(values.begin(), values.end(), [&](double v) { return v >= nearly; }) - values.begin());
-}
-
-// Indices of rows of the positive semi-definite G that are independent: the first n_first, then by
-// the largest remaining diagonal. G is scaled to a unit diagonal first and destroyed.
-std::vector<int> independent_rows(MatrixXd& G, int n_first, double tolerance) {
-  const int n = int(G.rows());
-  const VectorXd scale =
-      G.diagonal().unaryExpr([](double g) { return g > 0 ? 1 / std::sqrt(g) : 0.0; });
-  G = scale.asDiagonal() * G * scale.asDiagonal();
-  MatrixXd L(n, n);
-  VectorXd left = G.diagonal();
-  std::vector<int> chosen;
-  while (int(chosen.size()) < n) {
-    int pivot = int(chosen.size());
-    if (pivot >= n_first) pivot = first_largest(left);
-    if (!(left[pivot] > tolerance)) break;
-    const int c = int(chosen.size());
-    L.col(c) =
-        (G.col(pivot) - L.leftCols(c) * L.row(pivot).head(c).transpose()) / std::sqrt(left[pivot]);
-    left -= L.col(c).cwiseAbs2();
-    left[pivot] = -1;
-    chosen.push_back(pivot);
-  }
-  return chosen;
+// Of functions by their Gram matrix, scaled to a unit diagonal.
+std::vector<int> independent_functions(const MatrixXd& G, int n_first, double tolerance) {
+  const VectorXd scale = G.diagonal().unaryExpr([](double g) { return g > 0 ? 1 / std::sqrt(g) : 0.0; });
+  return independent_rows(scale.asDiagonal() * G * scale.asDiagonal(), n_first, tolerance);
 }
 
 }  // namespace
@@ -164,7 +139,7 @@ FreeCoefficients<Dim> free_coefficients(const Points<Dim>& position, const Vecto
   MatrixXd G = gradient_gram_matrix(
       blended_map(position, weights, free.origins, free.projection, n_candidates, true),
       volume, size);
-  std::vector<int> chosen = independent_rows(G, Dim + 1, tolerance);
+  std::vector<int> chosen = independent_functions(G, Dim + 1, tolerance);
   if (int(chosen.size()) <= Dim)  // not even 1 and X: only where something is not a number
     throw InputError("", "method.weights", "weights or gradients of weights that are not finite", "finite ones: a shape whose patches are less degenerate there");
   std::sort(chosen.begin(), chosen.end());
@@ -204,7 +179,7 @@ BlendedField<Dim> blended_field(const Points<Dim>& position, const VectorXd& vol
   set_columns();
   MatrixXd G = gradient_gram_matrix(blended_map(position, weights, field.origins, field.projection, int(column_of.size()), false),
                            volume, 1);
-  std::vector<int> chosen = independent_rows(G, 0, tolerance);
+  std::vector<int> chosen = independent_functions(G, 0, tolerance);
   std::sort(chosen.begin(), chosen.end());
   std::fill(column_of.begin(), column_of.end(), -1);
   for (int c = 0; c < int(chosen.size()); ++c) column_of[chosen[c]] = c;

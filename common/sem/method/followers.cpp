@@ -41,27 +41,6 @@ Eigen::VectorXd untrimmed_diagonal(const Boundary<Dim>& boundary, int part) {
   return diagonal;
 }
 
-// Rows that pivoted Cholesky of a matrix with diagonals of about 1 leaves out.
-std::vector<bool> dependent_rows(const Eigen::MatrixXd& G) {
-  const int n = int(G.rows());
-  Eigen::VectorXd left = G.diagonal();
-  Eigen::MatrixXd L(n, n);
-  std::vector<bool> dependent(n, true);
-  for (int c = 0; c < n; ++c) {
-    int pivot = 0;
-    if (!(left.maxCoeff(&pivot) > least_share)) break;
-    // The first of nearly equal ones: symmetric parts stay so whatever the rounding.
-    for (int i = 0; i < pivot; ++i)
-      if (left[i] > (1 - 1e-6) * left[pivot]) pivot = i;
-    L.col(c) =
-        (G.col(pivot) - L.leftCols(c) * L.row(pivot).head(c).transpose()) / std::sqrt(left[pivot]);
-    left -= L.col(c).cwiseAbs2();
-    left[pivot] = -1;
-    dependent[pivot] = false;
-  }
-  return dependent;
-}
-
 // Shares of the leaders in the affine map that fits them best, at X.
 template <int Dim>
 Eigen::RowVectorXd affine_shares(const Points<Dim>& leaders, const Vec<Dim>& X) {
@@ -81,10 +60,10 @@ Followers<Dim> find_followers(const Boundary<Dim>& boundary, const Samples<Dim>&
     if (!boundary.parts[i].region) continue;
     const Eigen::VectorXd scale =
         untrimmed_diagonal(boundary, i).cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const auto dependent = dependent_rows(scale.asDiagonal() * gram_of_part(boundary, samples, i) *
-                                          scale.asDiagonal());
-    for (size_t c = 0; c < dependent.size(); ++c)
-      follows[boundary.first_control[i] + c] = dependent[c];
+    const int first = boundary.first_control[i];
+    std::fill(follows.begin() + first, follows.begin() + boundary.first_control[i + 1], true);
+    const Eigen::MatrixXd scaled = scale.asDiagonal() * gram_of_part(boundary, samples, i) * scale.asDiagonal();
+    for (const int c : independent_rows(scaled, 0, least_share)) follows[first + c] = false;
   }
   const Points<Dim> p = rest_controls(boundary);
   const auto leaders_between = [&](int begin, int end) {

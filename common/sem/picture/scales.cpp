@@ -201,6 +201,16 @@ double stress_limit(const Scene<Dim>& scene, const Model<Dim>& model) {
   return expected > 0 ? round_up(expected) : 0;
 }
 
+StressScale stress_scale(const Eigen::VectorXd& stress, double limit) {
+  StressScale scale{limit};
+  for (const double value : stress) {
+    if (std::isnan(value)) ++scale.n_inverted;
+    else scale.largest = std::max(scale.largest, value);
+  }
+  if (!(limit > 0) && scale.largest > 0) scale.limit = round_up(scale.largest);
+  return scale;
+}
+
 double round_up(double value) {
   const double decade = std::pow(10, std::floor(std::log10(value)));
   for (const double factor : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})

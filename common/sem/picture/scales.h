@@ -33,6 +33,15 @@ Eigen::VectorXd von_mises(const Model<Dim>& model, const Eigen::VectorXd& z);
 template <int Dim>
 double stress_limit(const Scene<Dim>& scene, const Model<Dim>& model);
 
+/// What a frame's colours stand for.
+struct StressScale {
+  double limit = 0;    ///< Pa, where they end; 0: no stress anywhere
+  double largest = 0;  ///< Pa, of this frame
+  int n_inverted = 0;  ///< points without a stress
+};
+/// Of the stresses of one frame; `limit`: that of all frames, 0: a round number from this one's largest.
+StressScale stress_scale(const Eigen::VectorXd& stress, double limit);
+
 /// A round number not below the value, which is > 0: 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of
 /// ten.
 double round_up(double value);
