@@ -1,7 +1,6 @@
 // sem_figures: every figure from one command, its numbers (CSV) before its pictures (PNG, SVG).
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -77,14 +76,13 @@ bool run(const Options& options) {
   if (options.check) return check(selected, options);
   if (options.update) make_folder(options.references);
   for (const auto& figure : selected) {
-    const auto start = std::chrono::steady_clock::now();
+    const sem::Stopwatch watch;
     const std::string path = options.out + "/" + figure.name;
     make_figure(figure, options.out);
     if (options.update)
       update_reference(figure, from_csv(read_file(path + ".csv"), path + ".csv"),
                        options.references);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    std::printf("%s.png  %s (%.1f s)\n", path.c_str(), figure.caption.c_str(), elapsed.count());
+    std::printf("%s.png  %s (%.1f s)\n", path.c_str(), figure.caption.c_str(), watch.seconds());
     std::fflush(stdout);
   }
   write_gallery(options.out);

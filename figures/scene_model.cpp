@@ -1,8 +1,9 @@
 #include "figures/scene_model.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
+
+#include "sem/base/stopwatch.h"
 
 namespace sem::figures {
 
@@ -32,10 +33,9 @@ StiffnessPattern stiffness_pattern(const Discretization<2>& d) {
 double fastest_of(int n_calls, const std::function<void()>& call) {
   double fastest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < n_calls; ++i) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     call();
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    fastest = std::min(fastest, spent.count());
+    fastest = std::min(fastest, watch.seconds());
   }
   return fastest;
 }

@@ -24,8 +24,8 @@ TEST_CASE_TEMPLATE("steps of a linear body allocate nothing", T, D2, D3) {
     const long before = sem_test::n_allocations();
     for (int i = 0; i < 20; ++i) stepper.step(state);
     CHECK(sem_test::n_allocations() == before);
-    CHECK(stepper.counters().n_factorizations == 1);
-    CHECK(stepper.counters().n_hessians == 1);
+    CHECK(stepper.counters().factorizations.n == 1);
+    CHECK(stepper.counters().hessians.n == 1);
   }
 }
 
@@ -42,8 +42,8 @@ TEST_CASE_TEMPLATE("steps of a nonlinear body allocate nothing", T, D2, D3) {
   const long before = sem_test::n_allocations();
   for (int i = 0; i < 20; ++i) stepper.step(state);
   CHECK(sem_test::n_allocations() == before);
-  CHECK(stepper.counters().n_factorizations == 21);
-  CHECK(stepper.counters().n_hessians == 21);
+  CHECK(stepper.counters().factorizations.n == 21);
+  CHECK(stepper.counters().hessians.n == 21);
 }
 
 TEST_CASE_TEMPLATE("without probes none are evaluated and no error is estimated", T, D2, D3) {

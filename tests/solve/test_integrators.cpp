@@ -183,12 +183,12 @@ TEST_CASE("a quadratic potential: one Hessian, one factorisation, a second when 
     TimeStepper stepper(system, 0.02, integrator);
     State state = at_rest(system);
     for (int k = 0; k < 100; ++k) CHECK(stepper.step(state).iterations == 1);
-    CHECK(stepper.counters().n_factorizations == 1);
-    CHECK(stepper.counters().n_hessians == 1);
+    CHECK(stepper.counters().factorizations.n == 1);
+    CHECK(stepper.counters().hessians.n == 1);
     stepper.set_time_step(0.01);
     for (int k = 0; k < 10; ++k) stepper.step(state);
-    CHECK(stepper.counters().n_factorizations == 2);
-    CHECK(stepper.counters().n_hessians == 1);
+    CHECK(stepper.counters().factorizations.n == 2);
+    CHECK(stepper.counters().hessians.n == 1);
     CHECK(stepper.condition_estimate() >= 1);
   }
 }

@@ -83,8 +83,8 @@ TEST_CASE("a quadratic potential takes one factorisation, one Hessian and one it
   const StaticReport report = solve_static(system, state, options);
   CHECK(report.status == Status::converged);
   CHECK(report.iterations == 1);
-  CHECK(report.counters.n_factorizations == 1);
-  CHECK(report.counters.n_hessians == 1);
+  CHECK(report.counters.factorizations.n == 1);
+  CHECK(report.counters.hessians.n == 1);
   CHECK(report.load_factor == 1);
   CHECK(state.z(0) == 1.5);
   CHECK(state.z(11) == -0.5);

@@ -11,6 +11,8 @@ using Eigen::MatrixXd;
 
 namespace {
 
+constexpr int columns_at_once = 32;  // nodes
+
 struct Place {
   int group, row;  // of a shared row
 };
@@ -100,7 +102,7 @@ Assembly<Dim>::Assembly(const Map<Dim>& map, std::shared_ptr<const Elimination> 
     blocks_.push_back(std::move(block));
   }
   for (const auto& set : met) met_.emplace_back(set.begin(), set.end());
-  long most_left = 0, most_right = 0;
+  long most_T = 0, most_product = 0;
   for (const auto& panel : plan_->panels) {
     auto& touching = touching_.emplace_back();
     long k = 0;
@@ -109,13 +111,14 @@ Assembly<Dim>::Assembly(const Map<Dim>& map, std::shared_ptr<const Elimination> 
       const auto first = std::lower_bound(positions.begin(), positions.end(), panel.begin);
       if (first == positions.end() || *first >= panel.end) continue;
       touching.push_back(g);
-      k += groups_[g].E.rows();
+      k += groups_[g].T.rows();
     }
-    most_left = std::max(most_left, 2 * k * components * panel.height());
-    most_right = std::max(most_right, 2 * k * components * panel.width());
+    most_T = std::max(most_T, k * panel.height());
+    most_product = std::max(most_product, long(panel.height()) * components * std::min(columns_at_once, panel.width()));
   }
-  left_.resize(most_left);
-  right_.resize(most_right);
+  T_rows_.resize(most_T);
+  E_rows_.resize(components * components * most_T);
+  product_.resize(most_product);
 }
 
 template <int Dim>
@@ -126,9 +129,10 @@ void Assembly<Dim>::add(int b, const Eigen::Ref<const MatrixXd>& local, Symmetri
   for (size_t s = 0; s < block.shared.size(); ++s) {
     const auto& [g, group_row] = places_[block.shared[s]];
     MatrixXd& E = groups_[g].E;
-    const int row = C * (n_own + int(s));
+    const int row = C * (n_own + int(s)), n_rows = int(groups_[g].T.rows());
     for (int c = 0; c < n_own; ++c)
-      E.block(C * group_row, C * block.in_group[s][c], C, C) += local.block(row, C * c, C, C);
+      for (int j = 0; j < C; ++j)
+        for (int a = 0; a < C; ++a) E(a * n_rows + group_row, C * block.in_group[s][c] + j) += local(row + a, C * c + j);
     for (size_t t = 0; t <= s; ++t)
       shared_.block(C * block.shared[s], C * block.shared[t], C, C) += local.block(row, C * (n_own + int(t)), C, C);
   }
@@ -145,10 +149,24 @@ void Assembly<Dim>::add_transformed(int row, int other) {
   for (size_t c = 0; c < from.positions.size(); ++c) {
     const double t = from.T(places_[other].row, c);
     if (t == 0) continue;
-    auto E = to.E.block(C * group_row, C * index_of(to.positions, from.positions[c]), C, C);
+    const int column = C * index_of(to.positions, from.positions[c]), n_rows = int(to.T.rows());
     for (int j = 0; j < C; ++j)
-      for (int i = 0; i < C; ++i) E(i, j) += other == row ? t / 2 * H(std::max(i, j), std::min(i, j)) : t * H(i, j);
+      for (int i = 0; i < C; ++i)
+        to.E(i * n_rows + group_row, column + j) += other == row ? t / 2 * H(std::max(i, j), std::min(i, j)) : t * H(i, j);
   }
+}
+
+template <int Dim>
+Work Assembly<Dim>::finish_work() const {
+  Work work;
+  for (size_t p = 0; p < touching_.size(); ++p) {
+    const double w = plan_->panels[p].width(), h = plan_->panels[p].height();
+    double k = 0;
+    for (const int g : touching_[p]) k += double(groups_[g].T.rows());
+    work.flops += 4 * k * components_ * components_ * (w * (w + 1) / 2 + w * (h - w));
+    work.bytes += sizeof(double) * k * h * (1 + components_ * components_);
+  }
+  return work;
 }
 
 template <int Dim>
@@ -160,38 +178,50 @@ void Assembly<Dim>::finish(SymmetricMatrix& K) {
   for (auto& group : groups_) group.E.setZero();
 }
 
-// K += T^T E + E^T T in the columns of a panel, as (T; E)^T (E; T) with the rows of all groups below each other.
+// K += T^T E + E^T T in the columns of a panel. T acts on every component alone, so for component a the rows
+// C i + a of T^T E are T^T E_a, and the columns C j + a of E^T T are E_a^T T: each with the rows of all groups
+// below each other, a few columns at a time so that little above the diagonal is computed.
 template <int Dim>
 void Assembly<Dim>::add_shared_to_panel(int p, SymmetricMatrix& K) {
   const int C = components_;
   const auto& panel = plan_->panels[p];
-  const int width = C * panel.width(), height = C * panel.height();
   int k = 0;
-  for (const int g : touching_[p]) k += int(groups_[g].E.rows());
+  for (const int g : touching_[p]) k += int(groups_[g].T.rows());
   if (k == 0) return;
-  Eigen::Map<MatrixXd> left(left_.data(), 2 * k, height), right(right_.data(), 2 * k, width);
-  left.setZero();
+  const int height = panel.height(), width = panel.width();
+  Eigen::Map<MatrixXd> T(T_rows_.data(), k, height), E(E_rows_.data(), k, C * C * height);
+  T.setZero();
+  E.setZero();
   int row = 0;
   for (const int g : touching_[p]) {
     const Group& group = groups_[g];
     const int n_rows = int(group.T.rows());
     const auto first = std::lower_bound(group.positions.begin(), group.positions.end(), panel.begin);
     for (auto at = first; at != group.positions.end(); ++at) {
-      const int c = int(at - group.positions.begin()), column = C * panel.row_of(*at);
-      for (int r = 0; r < n_rows; ++r)
-        for (int a = 0; a < C; ++a) left(row + C * r + a, column + a) = group.T(r, c);
-      left.block(k + row, column, C * n_rows, C) = group.E.middleCols(C * c, C);
+      const int c = int(at - group.positions.begin()), node = panel.row_of(*at);
+      T.col(node).segment(row, n_rows) = group.T.col(c);
+      for (int a = 0; a < C; ++a)
+        E.block(row, C * (a * height + node), n_rows, C) = group.E.block(a * n_rows, C * c, n_rows, C);
     }
-    row += C * n_rows;
+    row += n_rows;
   }
-  right.topRows(k) = left.block(k, 0, k, width);
-  right.bottomRows(k) = left.block(0, 0, k, width);
-  auto target = K.panel(p);
   const DenseKernels& kernels = dense_kernels();
-  kernels.add_lower_product(target.data(), height, left.data(), 2 * k, right.data(), 2 * k, width, 2 * k);
-  if (height > width)
-    kernels.add_product(target.data() + width, height, left.data() + long(2 * k) * width, 2 * k, right.data(), 2 * k,
-                        height - width, width, 2 * k);
+  auto target = K.panel(p);
+  const int ld = C * height;
+  for (int first = 0; first < width; first += columns_at_once) {
+    const int n = std::min(columns_at_once, width - first), below = height - first;
+    for (int a = 0; a < C; ++a) {
+      const double* E_a = E.col(C * (a * height + first)).data();
+      kernels.add_product(&target(C * first, C * first + a), C * ld, E_a, k, T.col(first).data(), k, C * below, n, k);
+      Eigen::Map<MatrixXd> rows(product_.data(), below, C * n);
+      rows.setZero();
+      kernels.add_product(rows.data(), below, T.col(first).data(), k, E_a, k, below, C * n, k);
+      for (int j = 0; j < C * n; ++j) {
+        double* column = &target(C * first, C * first + j);
+        for (int i = 0; i < below; ++i) column[C * i + a] += rows(i, j);
+      }
+    }
+  }
 }
 
 #define SEM_INSTANTIATE(Dim)                                              \

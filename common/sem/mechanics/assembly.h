@@ -5,6 +5,7 @@
 
 #include "sem/method/map.h"
 #include "sem/solve/symmetric_matrix.h"
+#include "sem/solve/work.h"
 
 namespace sem {
 
@@ -15,7 +16,7 @@ std::vector<std::vector<int>> couplings(const Map<Dim>& map);
 /// K += Pi^T H Pi with y = Pi z = (z, T z), H the sum of the blocks' matrices. What H has on the unknowns themselves
 /// goes straight to its place. The rest is gathered for each group o of shared rows,
 ///   E_o = H_oz + sum_o' H_oo' T_o' (half of it for o' = o), and added at the end, K += sum_o T_o^T E_o + E_o^T T_o:
-/// for each panel one product with the rows of all the groups that touch its columns.
+/// for each panel and component two products with the rows of all the groups that touch its columns.
 template <int Dim>
 class Assembly {
  public:
@@ -28,6 +29,8 @@ class Assembly {
   const std::vector<int>& order(int block) const { return blocks_[block].order; }
   /// Adds the lower triangle of `local`: #columns of the block in that order, components interleaved.
   void add(int block, const Eigen::Ref<const Eigen::MatrixXd>& local, SymmetricMatrix& K);
+  /// Of `finish`, zeros of the panels included.
+  Work finish_work() const;
   /// Adds what was gathered, and forgets it.
   void finish(SymmetricMatrix& K);
 
@@ -41,7 +44,8 @@ class Assembly {
   struct Group {
     int first_row = 0;           // among all shared rows
     std::vector<int> positions;  // touched unknowns, ascending
-    Eigen::MatrixXd T, E;        // #rows by #touched, components * #rows by components * #touched
+    Eigen::MatrixXd T;           // #rows by #touched
+    Eigen::MatrixXd E;           // rows of component 0, then of 1, ..; columns: touched unknowns, components interleaved
   };
   struct SharedPlace {
     int group, row;
@@ -58,7 +62,7 @@ class Assembly {
   Eigen::MatrixXd shared_;           // H on the shared rows, lower triangle
   std::vector<std::vector<int>> met_;       // per shared row: earlier ones that it meets
   std::vector<std::vector<int>> touching_;  // per panel: groups
-  Eigen::VectorXd left_, right_;            // room for the largest panel
+  Eigen::VectorXd T_rows_, E_rows_, product_;  // room for the largest panel
 };
 
 }  // namespace sem

@@ -13,6 +13,9 @@ using Eigen::VectorXd;
 
 namespace {
 
+// Columns multiplied at once fill less than this, which the product copies.
+constexpr int product_columns_bytes = 64 << 10;
+
 // F at point k from its columns.
 template <int Dim>
 Mat<Dim> assemble_F(const std::array<Points<Dim>, Dim>& columns, int k) {
@@ -54,9 +57,32 @@ InternalEnergy<Dim>::InternalEnergy(const Map<Dim>& map, const VectorXd& weight,
       work_[b].gradient.middleRows(axis * n, n) = block.gradient[axis](Eigen::all, assembly_.order(int(b)));
     for (auto& entry : work_[b].tangent) entry.resize(n);
   }
-  scaled_.resize(most_scaled);
-  product_.resize(most_columns * most_columns);
+  scaled_.resize(most_scaled * Dim * (Dim + 1) / 2);
+  product_.resize(most_columns * most_columns * Dim * (Dim + 1) / 2);
   local_.resize(Dim * Dim * most_columns * most_columns);
+}
+
+template <int Dim>
+PotentialWork InternalEnergy<Dim>::work() const {
+  PotentialWork work;
+  Work F, local;  // F at all points; the blocks' matrices
+  for (const auto& block : map_.blocks) {
+    const double n = double(block.points.size()), N = double(block.columns.size());
+    F += {2 * Dim * Dim * n * N, sizeof(double) * Dim * n * N};
+    const double pairs = Dim * (Dim + 1) / 2, entries = Dim * N * (Dim * N + 1) / 2;
+    local += {2 * pairs * Dim * Dim * n * N + 2 * entries * Dim * n + entries, sizeof(double) * Dim * n * N};
+  }
+  for (const auto& shared : map_.shared)
+    F += {2 * Dim * double(shared.rows.size()), sizeof(double) * double(shared.rows.size())};
+  const double n = size(), m = pressure_.functions().interior.n_columns;
+  const double entries = double(assembly_.plan()->n_entries), K = sizeof(double) * Dim * Dim * entries;
+  if (stability_.size() > 0) F += {4 * Dim * entries, sizeof(double) * entries};
+  work.energy = F;
+  work.gradient = {2 * F.flops, F.bytes};
+  work.hessian = {F.flops + m * m * n + m * n * n, F.bytes + K + sizeof(double) * m * n};
+  work.hessian += local;
+  work.hessian += assembly_.finish_work();
+  return work;
 }
 
 template <int Dim>
@@ -173,29 +199,42 @@ void InternalEnergy<Dim>::set_tangents(const MapBlock<Dim>& block, bool project_
   }
 }
 
-// The lower triangle of sum_k v_k B_k^T C_k B_k in the block's columns, components interleaved: for every pair of
-// components a >= c the product of G^T and the scaled G.
+// The lower triangle of sum_k v_k B_k^T C_k B_k in the block's columns, components interleaved: the products of G^T
+// and the scaled G of all pairs of components a >= c, side by side.
 template <int Dim>
 Eigen::Map<const MatrixXd> InternalEnergy<Dim>::local_hessian(const Workspace& work) {
+  constexpr int n_pairs = Dim * (Dim + 1) / 2;
   const int n = int(work.tangent[0].size()), N = int(work.gradient.cols()), k = Dim * n;
-  Eigen::Map<MatrixXd> scaled(scaled_.data(), k, N), product(product_.data(), N, N), local(local_.data(), Dim * N, Dim * N);
-  for (int c = 0; c < Dim; ++c)
-    for (int a = c; a < Dim; ++a) {
-      for (int j = 0; j < N; ++j)
-        for (int b = 0; b < Dim; ++b) {
-          auto entry = scaled.col(j).segment(b * n, n).array();
-          const auto C = [&](int d) -> const Eigen::ArrayXd& { return work.tangent[a + Dim * b + Dim * Dim * (c + Dim * d)]; };
-          const auto G = [&](int d) { return work.gradient.col(j).segment(d * n, n).array(); };
-          entry = C(0) * G(0);
-          for (int d = 1; d < Dim; ++d) entry += C(d) * G(d);
+  Eigen::Map<MatrixXd> scaled(scaled_.data(), k, n_pairs * N), product(product_.data(), N, n_pairs * N), local(local_.data(), Dim * N, Dim * N);
+  std::array<std::array<int, Dim>, Dim> pair;
+  for (int c = 0, next = 0; c < Dim; ++c)
+    for (int a = c; a < Dim; ++a, ++next) {
+      pair[a][c] = pair[c][a] = next;
+      for (int b = 0; b < Dim; ++b) {
+        const auto C = [&](int d) { return work.tangent[a + Dim * b + Dim * Dim * (c + Dim * d)].data(); };
+        for (int j = 0; j < N; ++j) {
+          double* entry = &scaled(b * n, next * N + j);
+          for (int i = 0; i < n; ++i) entry[i] = 0;
+          for (int d = 0; d < Dim; ++d) {
+            const double *factor = C(d), *G = &work.gradient(d * n, j);
+            for (int i = 0; i < n; ++i) entry[i] += factor[i] * G[i];
+          }
         }
-      product.setZero();
-      dense_kernels().add_product(product_.data(), N, work.gradient.data(), k, scaled_.data(), k, N, N, k);
-      for (int j = 0; j < N; ++j)
-        for (int m = j; m < N; ++m) {
-          local(Dim * m + a, Dim * j + c) = product(m, j);
-          if (a != c) local(Dim * m + c, Dim * j + a) = product(j, m);
-        }
+      }
+    }
+  product.setZero();
+  const int at_once = std::clamp(product_columns_bytes / int(sizeof(double) * k), N, n_pairs * N);
+  for (int j = 0; j < n_pairs * N; j += at_once)
+    dense_kernels().add_product(&product(0, j), N, work.gradient.data(), k, &scaled(0, j), k, N, std::min(at_once, n_pairs * N - j), k);
+  for (int j = 0; j < N; ++j)
+    for (int c = 0; c < Dim; ++c) {
+      double* column = &local(0, Dim * j + c);
+      for (int a = 0; a < Dim; ++a) {
+        const bool swapped = a < c;  // entry (a, c) of (m, j) is entry (c, a) of (j, m)
+        const double* from = swapped ? &product(j, pair[a][c] * N) : &product(0, pair[a][c] * N + j);
+        const int stride = swapped ? N : 1;
+        for (int m = j; m < N; ++m) column[Dim * m + a] = from[m * stride];
+      }
     }
   return {local_.data(), Dim * N, Dim * N};
 }

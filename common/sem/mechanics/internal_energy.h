@@ -41,6 +41,8 @@ class InternalEnergy : public Potential {
   void gradient(const Eigen::VectorXd& z, Eigen::VectorXd& g) override;
   void hessian(const Eigen::VectorXd& z, bool project_psd, SymmetricMatrix& H) override;
   SymmetricMatrix new_hessian() const override { return {assembly_.plan(), Dim}; }
+  /// Without clamps.
+  PotentialWork work() const override;
   /// True if every material in use is linear.
   bool quadratic() const override { return quadratic_; }
 

@@ -1,9 +1,9 @@
 #include "sem/method/discretization.h"
 
-#include <chrono>
 #include <utility>
 
 #include "sem/base/error.h"
+#include "sem/base/stopwatch.h"
 #include "sem/method/material_weights.h"
 #include "sem/method/resolved_rule.h"
 #include "sem/method/sided_weight.h"
@@ -14,10 +14,9 @@ namespace {
 // Runs one stage and notes its time.
 template <class Stage>
 auto timed(std::vector<StageCost>& cost, const char* name, const Stage& stage) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   auto result = stage();
-  cost.push_back(
-      {name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+  cost.push_back({name, watch.seconds()});
   return result;
 }
 

@@ -1,10 +1,10 @@
 #include "sem/scene/accuracy_goal.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "sem/base/error.h"
+#include "sem/base/stopwatch.h"
 #include "sem/method/monomials.h"
 
 namespace sem {
@@ -85,13 +85,13 @@ RefinedScene<Dim> meet_accuracy(const Scene<Dim>& scene, const std::string& file
   RefinedScene<Dim> result;
   result.scene = scene;
   while (true) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     result.estimate = estimate_error(result.scene, file);
     const auto& method = result.scene.method;
     Round round{n_parts(result.scene), method.projection.degree, method.interior_rule.weight_tolerance,
                 scene.analysis.kind == AnalysisKind::dynamics ? result.scene.analysis.time_step : 0};
     round.expected = relative_error(result.scene, result.estimate);
-    round.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    round.seconds = watch.seconds();
     result.rounds.push_back(round);
     result.reached = round.expected <= scene.accuracy;
     if (result.reached) return result;

@@ -1,24 +1,11 @@
 #include "sem/scene/analysis.h"
 
-#include <chrono>
 #include <cmath>
 
+#include "sem/base/stopwatch.h"
 #include "sem/solve/integrators.h"
 
 namespace sem {
-namespace {
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-}  // namespace
 
 Eigen::VectorXd LoadInTime::mean() const {
   Eigen::VectorXd f = constant;

@@ -1,10 +1,10 @@
 #include "sem/scene/estimate.h"
 
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
 #include "sem/base/error.h"
+#include "sem/base/stopwatch.h"
 #include "sem/nurbs/refine.h"
 #include "sem/scene/analysis.h"
 #include "sem/scene/monitor.h"
@@ -169,7 +169,7 @@ ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file) {
     variation.setting = change.setting;
     variation.refinement = change.refinement;
     variation.factor = change.factor;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     try {
       const Rows rows = values_of(varied, file, change.refinement == Refinement::time_step ? 2 : 1);
       variation.change.assign(result.value.size(), 0);
@@ -181,7 +181,7 @@ ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file) {
     } catch (const std::exception& error) {  // no memory for twice the points, too
       variation.failure = error.what();
     }
-    variation.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    variation.seconds = watch.seconds();
     result.variations.push_back(std::move(variation));
   }
   return result;

@@ -1,12 +1,12 @@
 #include "sem/scene/info.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "sem/base/stopwatch.h"
 #include "sem/scene/accuracy.h"
 #include "sem/scene/accuracy_goal.h"
 #include "sem/scene/json_text.h"
@@ -20,9 +20,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 double seconds_of(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return watch.seconds();
 }
 
 // How often the analysis makes a Hessian and a factorisation. Newton's method: 5 iterations from rest, 3 in a

@@ -1,7 +1,6 @@
 #include "sem/scene/model.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -9,6 +8,7 @@
 
 #include "sem/base/error.h"
 #include "sem/base/rotation.h"
+#include "sem/base/stopwatch.h"
 #include "sem/mechanics/loads.h"
 #include "sem/mechanics/quadratic_forms.h"
 #include "sem/method/material_weights.h"
@@ -85,10 +85,9 @@ class Builder {
  private:
   template <class Stage>
   void timed(const char* name, const Stage& stage) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     stage();
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    model_->cost.push_back({name, spent.count()});
+    model_->cost.push_back({name, watch.seconds()});
   }
 
   void discretize_parts() {

@@ -1,10 +1,10 @@
 #include "sem/scene/run.h"
 
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "sem/base/error.h"
+#include "sem/base/stopwatch.h"
 #include "sem/base/version.h"
 #include "sem/scene/accuracy.h"
 #include "sem/scene/accuracy_goal.h"
@@ -21,10 +21,6 @@ namespace sem {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 // What a checkpoint depends on: all settings but names, outputs and how long the run goes on.
 template <int Dim>
@@ -89,9 +85,9 @@ class Run {
     write_results();  // whatever happens to the estimate
     if (!refined_ && scene_.output.error_estimate && result_.ok) {
       progress(1, "estimating the error");
-      const auto start = std::chrono::steady_clock::now();
+      const Stopwatch watch;
       estimate_ = estimate_error(scene_, options_.file);
-      estimate_seconds_ = seconds_since(start);
+      estimate_seconds_ = watch.seconds();
       write_results();
     }
     return result_;
@@ -106,10 +102,10 @@ class Run {
 
   void frame(const State& state, int number) {
     if (!on_frame_ || scene_.output.frame_rate == 0) return;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     on_frame_(*model_, state, number);
     result_.n_frames = number + 1;
-    output_seconds_ += seconds_since(start);
+    output_seconds_ += watch.seconds();
   }
 
   void finish(const AnalysisReport& report, const std::string& done) {
@@ -127,10 +123,10 @@ class Run {
   }
 
   void run_modes() {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const Modes modes = vibration_modes(model_->system, state_.z, scene_.analysis.n_modes);
     AnalysisReport report;
-    report.seconds = seconds_since(start);
+    report.seconds = watch.seconds();
     report.status = modes.status;
     history_ = std::make_unique<Table>(
         std::vector<std::string>{"mode", "omega_rad_s", "frequency_Hz", "residual"});

@@ -18,16 +18,37 @@ Json stages_json(const std::vector<StageCost>& cost, const std::vector<StageErro
   return json;
 }
 
+namespace {
+
+// Of a call, by kind: time measured, operations and bytes counted. Kinds that a solver did not need are left out.
+Json work_json(const Counters& counters) {
+  Json json = Json::object();
+  const auto add = [&](const char* name, const Task& task) {
+    if (task.n == 0) return;
+    const double n = double(task.n);
+    json[name] = {{"calls", task.n}, {"seconds", task.seconds / n}, {"flops", task.work.flops / n}, {"bytes", task.work.bytes / n}};
+  };
+  add("energy", counters.energies);
+  add("gradient", counters.gradients);
+  add("hessian", counters.hessians);
+  add("factorization", counters.factorizations);
+  add("solve", counters.solves);
+  return json;
+}
+
+}  // namespace
+
 Json solver_json(const AnalysisReport& report) {
   return {{"steps", report.n_steps},
           {"steps_retried", report.n_retried},
           {"iterations", report.iterations},
           {"worst_residual", report.residual},
-          {"factorizations", report.counters.n_factorizations},
-          {"hessians", report.counters.n_hessians},
+          {"factorizations", report.counters.factorizations.n},
+          {"hessians", report.counters.hessians.n},
           {"psd_projections", report.counters.n_psd_projections},
           {"condition_estimate", report.condition_estimate},
-          {"seconds_per_step", report.n_steps > 0 ? report.seconds / double(report.n_steps) : 0}};
+          {"seconds_per_step", report.n_steps > 0 ? report.seconds / double(report.n_steps) : 0},
+          {"work", work_json(report.counters)}};
 }
 
 Json energy_json(const Table& history) {

@@ -41,6 +41,7 @@ TimeStepper::TimeStepper(const System& system, double dt, Integrator integrator,
       integrator_(integrator),
       options_(options),
       theta_(integrator == Integrator::implicit_midpoint ? 0.5 : 1),
+      work_of_(system.potential->work()),
       quadratic_(system.potential->quadratic()),
       newton_(system),
       stiffness_(system.potential->new_hessian()),
@@ -53,17 +54,12 @@ TimeStepper::TimeStepper(const System& system, double dt, Integrator integrator,
   if (!quadratic_) return;
   rest_energy_ = system.potential->energy(system.rest);
   system.potential->gradient(system.rest, rest_gradient_);
-  system.potential->hessian(system.rest, false, stiffness_);
-  ++counters_.n_hessians;
+  counters_.hessians.run(work_of_.hessian, [&] { system.potential->hessian(system.rest, false, stiffness_); });
 }
 
 Counters TimeStepper::counters() const {
   Counters total = counters_;
-  const Counters& newton = newton_.counters();
-  total.n_factorizations += newton.n_factorizations;
-  total.n_hessians += newton.n_hessians;
-  total.n_psd_projections += newton.n_psd_projections;
-  total.n_shifts += newton.n_shifts;
+  total += newton_.counters();
   return total;
 }
 
@@ -127,7 +123,7 @@ Status TimeStepper::advance_linear(double dt, StepReport& report) {
   rhs_.setZero();
   for (const int i : system_.free) rhs_(i) = -dt * (gradient_(i) - system_.load(i) + theta_ * dt * work_(i));
   dv_ = rhs_;
-  cholesky_.solve_in_place(dv_);
+  counters_.solves.run(cholesky_.solve_work(), [&] { cholesky_.solve_in_place(dv_); });
   matrix_.multiply(dv_, work_);
   double error = 0;
   for (const int i : system_.free) {
@@ -176,19 +172,17 @@ bool TimeStepper::factorize_matrix(double dt) {
   matrix_ = stiffness_;
   matrix_ *= theta_ * theta_ * dt * dt;
   matrix_.add(1, system_.mass);
-  ++counters_.n_factorizations;
-  return cholesky_.compute(matrix_);
+  return counters_.factorizations.run(cholesky_.factor_work(), [&] { return cholesky_.compute(matrix_); });
 }
 
 void TimeStepper::set_stiffness(bool project_psd) {
-  system_.potential->hessian(z_, project_psd, stiffness_);
-  ++counters_.n_hessians;
+  counters_.hessians.run(work_of_.hessian, [&] { system_.potential->hessian(z_, project_psd, stiffness_); });
   if (project_psd) ++counters_.n_psd_projections;
 }
 
 void TimeStepper::set_gradient(const Eigen::VectorXd& z) {
   if (!quadratic_) {
-    system_.potential->gradient(z, gradient_);
+    counters_.gradients.run(work_of_.gradient, [&] { system_.potential->gradient(z, gradient_); });
     return;
   }
   increment_ = z - system_.rest;
@@ -197,7 +191,7 @@ void TimeStepper::set_gradient(const Eigen::VectorXd& z) {
 }
 
 double TimeStepper::potential_energy(const Eigen::VectorXd& z) {
-  if (!quadratic_) return system_.potential->energy(z);
+  if (!quadratic_) return counters_.energies.run(work_of_.energy, [&] { return system_.potential->energy(z); });
   increment_ = z - system_.rest;
   stiffness_.multiply(increment_, work_);
   return rest_energy_ + rest_gradient_.dot(increment_) + increment_.dot(work_) / 2;

@@ -79,6 +79,7 @@ class TimeStepper {
   Integrator integrator_;
   StepOptions options_;
   double theta_;    // weight of the end of the step: 1 Euler, 1/2 midpoint
+  PotentialWork work_of_;
   bool quadratic_;  // V(z) = V(rest) + g0 . (z - rest) + 1/2 (z - rest) . K (z - rest)
   double factorized_dt_ = 0;
   Counters counters_;

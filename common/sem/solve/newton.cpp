@@ -20,6 +20,7 @@ constexpr double first_shift = 1e-3, last_shift = 10;  // shares of the diagonal
 
 Newton::Newton(const System& system)
     : system_(system),
+      work_of_(system.potential->work()),
       hessian_(system.potential->new_hessian()),
       matrix_(hessian_),
       cholesky_(hessian_.plan(), hessian_.components(), system.free) {
@@ -31,9 +32,9 @@ Newton::Newton(const System& system)
 // Energy, gradient and residual at u; +infinity (and no gradient) if inadmissible.
 double Newton::evaluate(const IncrementProblem& problem, const Eigen::VectorXd& u) {
   z_ = problem.base + u;
-  const double energy = system_.potential->energy(z_);
+  const double energy = counters_.energies.run(work_of_.energy, [&] { return system_.potential->energy(z_); });
   if (!std::isfinite(energy)) return std::numeric_limits<double>::infinity();
-  system_.potential->gradient(z_, gradient_);
+  counters_.gradients.run(work_of_.gradient, [&] { system_.potential->gradient(z_, gradient_); });
   inertial_.setZero();
   if (problem.inertia > 0) {
     work_ = u - problem.drift;
@@ -47,16 +48,14 @@ double Newton::evaluate(const IncrementProblem& problem, const Eigen::VectorXd& 
 
 // matrix_ = H(z_) + inertia M.
 void Newton::assemble(double inertia, bool project_psd) {
-  system_.potential->hessian(z_, project_psd, hessian_);
-  ++counters_.n_hessians;
+  counters_.hessians.run(work_of_.hessian, [&] { system_.potential->hessian(z_, project_psd, hessian_); });
   if (project_psd) ++counters_.n_psd_projections;
   matrix_ = hessian_;
   if (inertia > 0) matrix_.add(inertia, system_.mass);
 }
 
 bool Newton::factorize() {
-  ++counters_.n_factorizations;
-  return cholesky_.compute(matrix_);
+  return counters_.factorizations.run(cholesky_.factor_work(), [&] { return cholesky_.compute(matrix_); });
 }
 
 // Adds a share of the raw matrix's diagonal, left in diagonal_.
@@ -103,7 +102,7 @@ bool Newton::predict(const IncrementProblem& problem, Eigen::VectorXd& u) {
   for (const int i : system_.free) step_(i) = 0;
   hessian_.multiply(step_, work_);
   work_ = -residual_ - work_;
-  cholesky_.solve_in_place(work_);
+  counters_.solves.run(cholesky_.solve_work(), [&] { cholesky_.solve_in_place(work_); });
   step_ += work_;
   trial_ = u + step_;
   energy_ = evaluate(problem, trial_);
@@ -116,7 +115,7 @@ bool Newton::predict(const IncrementProblem& problem, Eigen::VectorXd& u) {
 // known; leaves both at the new u.
 bool Newton::line_search(const IncrementProblem& problem, Eigen::VectorXd& u) {
   step_ = -residual_;
-  cholesky_.solve_in_place(step_);
+  counters_.solves.run(cholesky_.solve_work(), [&] { cholesky_.solve_in_place(step_); });
 
   const double slope = residual_.dot(step_), old_norm = residual_.norm(), old_energy = energy_;
   // The part of the objective besides V, along the line: linear alpha + curvature alpha^2 / 2.

@@ -9,14 +9,6 @@
 
 namespace sem {
 
-/// What was spent, over the life of a solver.
-struct Counters {
-  long n_factorizations = 0;   ///< attempted Cholesky factorisations
-  long n_hessians = 0;         ///< Hessians asked of the potential
-  long n_psd_projections = 0;  ///< of these, projected because the raw one was indefinite
-  long n_shifts = 0;           ///< multiples of the diagonal added because that did not do either
-};
-
 struct NewtonOptions {
   double tolerance = 1e-10;
   int max_iterations = 50;
@@ -78,6 +70,7 @@ class Newton {
   bool pins_move(const IncrementProblem& problem);
 
   const System& system_;
+  PotentialWork work_of_;
   Counters counters_;
   SymmetricMatrix hessian_, matrix_;
   SparseCholesky cholesky_;

@@ -24,7 +24,9 @@ SparseCholesky::SparseCholesky(std::shared_ptr<const Elimination> plan, int comp
     const auto& panel = plan_->panels[p];
     n_rows_.push_back(int(std::lower_bound(panel.rows.begin(), panel.rows.end(), n_eliminated) - panel.rows.begin()));
     const double w = C * panel.width(), b = rows_below(p);
-    flops_ += w * w * w / 3 + w * w * b + w * b * (b + 1);
+    const double entries = w * (w + 1) / 2 + w * b, size = sizeof(double) * entries;
+    factor_work_ += {w * w * w / 3 + w * w * b + w * b * (b + 1), 2 * size};
+    solve_work_ += {4 * entries, 2 * size};
     most_rows = std::max(most_rows, long(b));
     highest = std::max(highest, long(w + b));
   }

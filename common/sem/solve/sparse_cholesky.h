@@ -2,6 +2,7 @@
 // Cholesky factorisation of a symmetric matrix in panels that tells a singular matrix from a regular one.
 
 #include "sem/solve/symmetric_matrix.h"
+#include "sem/solve/work.h"
 
 namespace sem {
 
@@ -21,8 +22,9 @@ class SparseCholesky {
   void solve_in_place(Eigen::VectorXd& b) const;
   /// As Cholesky::condition_estimate.
   double condition_estimate() const;
-  /// Additions and multiplications of one factorisation, zeros of the panels included.
-  double flops() const { return flops_; }
+  /// Of a factorisation, and of forward and back substitution; zeros of the panels included.
+  const Work& factor_work() const { return factor_work_; }
+  const Work& solve_work() const { return solve_work_; }
 
  private:
   bool set_scale(const SymmetricMatrix& A);
@@ -38,7 +40,7 @@ class SparseCholesky {
   Eigen::VectorXd scale_;              // by position; 1 / sqrt(A_ii), 0: not free
   mutable Eigen::VectorXd ordered_, rows_;  // workspaces, as large as needed
   Eigen::VectorXd row_scale_, product_;
-  double flops_ = 0;
+  Work factor_work_, solve_work_;
   bool ok_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sem/solve/symmetric_matrix.h"
+#include "sem/solve/work.h"
 
 namespace sem {
 
@@ -29,6 +30,8 @@ class Potential {
   virtual SymmetricMatrix new_hessian() const;
   /// The Hessian as a dense matrix, for small problems.
   Eigen::MatrixXd dense_hessian(const Eigen::VectorXd& z, bool project_psd = false);
+  /// What each of these calls costs; zero: not counted.
+  virtual PotentialWork work() const { return {}; }
   /// True if V is quadratic: H does not depend on z. Solvers then ask for it
   /// once, and for no gradient in the step loop.
   virtual bool quadratic() const = 0;
