@@ -375,3 +375,29 @@ TEST_CASE("lines through and past a pole: a fan over a quarter disc is hit once 
   const double ordinary = queries(0.5);
   for (const double distance : {1e-3, 1e-6, 0.0}) CHECK(queries(distance) < 300 * ordinary);
 }
+
+TEST_CASE("closest points from the axis of a cylinder: all as far as its radius, at ordinary cost") {
+  std::mt19937 random(12);
+  const Mat<3> R = Eigen::Quaterniond(0.3, -0.5, 0.7, 0.2).normalized().toRotationMatrix();
+  const Vec<3> center(0.4, -1.2, 2.3);
+  Nurbs<2, 3> quarter;
+  quarter.degree = {2, 1};
+  quarter.knots = {std::vector<double>{0, 0, 0, 1, 1, 1}, std::vector<double>{0, 0, 1, 1}};
+  quarter.control_points.resize(3, 6);
+  quarter.control_points << 1, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1, 1, 0, 0, 0, 1, 1, 1;
+  quarter.control_points = ((R * quarter.control_points).colwise() + center).eval();
+  quarter.weights = Eigen::VectorXd::Ones(6);
+  quarter.weights[1] = quarter.weights[4] = std::sqrt(0.5);
+  const auto cylinder = prepare(quarter);
+  const auto queries = [&](double radius) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int k = 0; k < 50; ++k) {
+      const double z = 0.5 * (1 + uniform(random)), angle = M_PI / 4;
+      const Vec<3> X = center + R * Vec<3>(radius * std::cos(angle), radius * std::sin(angle), z);
+      REQUIRE(std::abs(closest_point<3>(cylinder, X).distance - (1 - radius)) < 1e-14);
+    }
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const double ordinary = queries(0.5);
+  CHECK(queries(0) < 30 * ordinary);
+}

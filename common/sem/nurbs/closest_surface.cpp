@@ -15,6 +15,8 @@
 // patch runs in the parameter t that makes the weights of its ends equal (Moebius),
 //   s = lower + (upper - lower) r t / (1 - t + r t).
 // Halved there, weights of 1, w, 1 become those of 1, about sqrt(w / 2), 1.
+// Where points are equally close along a curve, q - m v is nowhere convex, but vanishes there: a patch split along
+// the curve has no negative coefficients left (a cylinder and its axis, say).
 // Trimmed: where the whole surface's closest point is not in the region, the border's closest point comes
 // first. Nothing else counts but stationary points inside the region, so a patch that the border runs through
 // is also done when q / v has none there, or only the one found.
@@ -25,8 +27,8 @@ namespace {
 using detail::Vec4;  // w (P - X), w
 
 constexpr int max_patches = 50000;  // only a curve of equally close points needs so many
-
 constexpr int max_halvings = 37;    // of the unit interval: 1e-11
+constexpr int many_halvings = 3;    // from then on a patch is split where its minimum is
 
 struct Patch {
   Vec<2> lower, upper;  // in [0, 1]^2 of the piece
@@ -111,7 +113,7 @@ class SurfaceClosest {
         --n;
         continue;
       }
-      split(patch, n);
+      split(patch, split_at_, n);
       n += 3;
       // The most promising patch on top.
       int top = n - 1;
@@ -124,19 +126,19 @@ class SurfaceClosest {
     }
   }
 
-  // Replaces patch n - 1 by its quarters.
-  void split(const Patch& patch, int n) {
+  // Replaces patch n - 1 by its quarters about t.
+  void split(const Patch& patch, const Vec<2>& t, int n) {
     reserve(n + 3);
     const auto halve = [&](int from, int axis, int to) {
       Vec4* c = coefficients(from);
-      detail::split_patch<4>(c, piece_->degree.data(), axis, 0.5, coefficients(to), c);
+      detail::split_patch<4>(c, piece_->degree.data(), axis, t[axis], coefficients(to), c);
     };
     const int i = n - 1;
     halve(i, 0, n);
     halve(i, 1, n + 1);
     halve(n, 1, n + 2);
     const int upper_u[4] = {1, 0, 1, 0}, upper_v[4] = {1, 1, 0, 0};
-    const Vec<2> middle = parameter(patch, Vec<2>::Constant(0.5));
+    const Vec<2> middle = parameter(patch, t);
     for (int k = 0; k < 4; ++k) {
       Patch& child = scratch_.patches[i + k];
       child = patch;
@@ -145,7 +147,7 @@ class SurfaceClosest {
         const bool upper = a == 0 ? upper_u[k] : upper_v[k];
         const double r = patch.ratio[a];
         (upper ? child.lower : child.upper)[a] = middle[a];
-        child.ratio[a] = upper ? 2 * r / (1 + r) : (1 + r) / 2;
+        child.ratio[a] = upper ? r / (r + (1 - t[a]) * (1 - r)) : 1 - t[a] * (1 - r);
       }
       child.bound = std::max(patch.bound, hull_bound(coefficients(i + k)));
       if (rational_) balance(child, coefficients(i + k));
@@ -156,6 +158,18 @@ class SurfaceClosest {
   static Vec<2> parameter(const Patch& patch, const Vec<2>& t) {
     const Vec<2> along = patch.ratio.cwiseProduct(t);
     return patch.lower + (patch.upper - patch.lower).cwiseProduct(along.cwiseQuotient(Vec<2>::Ones() - t + along));
+  }
+
+  // Where to split a patch: its middle, or after many halvings a minimum inside.
+  static Vec<2> split_at(const Patch& patch, const Vec<2>& minimum) {
+    Vec<2> t = Vec<2>::Constant(0.5);
+    if (patch.halvings < many_halvings) return t;
+    for (int a = 0; a < 2; ++a) {
+      const double share = (minimum[a] - patch.lower[a]) / (patch.upper[a] - patch.lower[a]);
+      const double at = share / (share + patch.ratio[a] * (1 - share));
+      if (at > 0.01 && at < 0.99) t[a] = at;
+    }
+    return t;
   }
 
   // ds/dt at s.
@@ -196,7 +210,7 @@ class SurfaceClosest {
     return least > 0 ? least / direction.norm() : 0;
   }
 
-  // True if no point of the patch is better than the best one now known.
+  // True if no point of the patch is better than the best one now known; else split_at_ is set.
   bool finish(const Patch& patch, const Vec4* c) {
     int where = 0;
     const double least = scratch_.bounds.set(c, piece_->degree, part_.power != nullptr, where);
@@ -206,6 +220,7 @@ class SurfaceClosest {
     const int p = 2 * piece_->degree[0], q = 2 * piece_->degree[1];
     const Vec<2> share(double(where % (p + 1)) / p, double(where / (p + 1)) / q);
     const Descent found = descend(parameter(patch, share), patch);
+    split_at_ = split_at(patch, found.s);
     return hopeless(bound_from_minimum(patch, found)) ||
            (overlap == Overlap::some && scratch_.bounds.at_most_one_stationary(std::max(0.0, least), least_ * least_));
   }
@@ -405,7 +420,7 @@ class SurfaceClosest {
   double least_, size_;
   ClosestPoint<3> best_;
   const BezierPiece<2, 3>*piece_ = nullptr, *best_piece_ = nullptr;
-  Vec<2> best_s_;
+  Vec<2> best_s_, split_at_;
   int n_ = 0;
   bool rational_ = false;  // weights of the piece differ
 };
