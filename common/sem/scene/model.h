@@ -5,16 +5,10 @@
 
 #include "sem/mechanics/internal_energy.h"
 #include "sem/scene/analysis.h"
-#include "sem/scene/scene.h"
+#include "sem/scene/pins.h"
 #include "sem/solve/system.h"
 
 namespace sem {
-
-/// What a pin holds.
-struct Held {
-  std::vector<int> controls;  ///< control points, ascending
-  std::vector<int> entries;   ///< of z: those of the held components, ascending
-};
 
 /// The discretised body of a scene with its energy, mass, loads and pins.
 template <int Dim>
@@ -55,8 +49,5 @@ bool has_own_pressure(const MethodOptions& options, const Material& material);
 /// matches nothing, nothing left free, a probe outside of the body.
 template <int Dim>
 std::unique_ptr<Model<Dim>> build_model(const Scene<Dim>& scene, const std::string& file);
-
-/// True if the name, one of its groups (the text before a dot) or "solid/" and any of these is the selector's part.
-bool matches_part(const std::string& selected, const std::string& solid, const std::string& part);
 
 }  // namespace sem
