@@ -9,6 +9,9 @@
 namespace sem {
 
 namespace {
+// |A x - b| / |b| of a step's linear system: beyond it x is rounding (bodies of 1e-9 of their length).
+constexpr double largest_linear_residual = 1e-4;
+
 constexpr Integrator all_integrators[] = {
     Integrator::linearly_implicit_euler, Integrator::implicit_euler, Integrator::implicit_midpoint};
 }
@@ -132,8 +135,9 @@ Status TimeStepper::advance_linear(double dt, StepReport& report) {
     v_(i) += dv_(i);
   }
   const double size = rhs_.norm();
-  if (size > 0) report.residual = std::max(report.residual, std::sqrt(error) / size);
-  return Status::converged;
+  const double residual = size > 0 ? std::sqrt(error) / size : 0;
+  report.residual = std::max(report.residual, residual);
+  return residual <= largest_linear_residual ? Status::converged : Status::singular;
 }
 
 // Newton on the increment u to the point where the force is taken: z0 + u = z1

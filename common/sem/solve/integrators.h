@@ -50,8 +50,8 @@ class TimeStepper {
               const StepOptions& options = {});
 
   /// On success z, v, time and step advance; pinned entries keep z and get v = 0.
-  /// A step that does not converge, or ends where V is not finite, is retried in
-  /// substeps; if all retries fail the status says why and the state is untouched.
+  /// A step that does not converge, whose linear system is solved no better than
+  /// to 1e-4, or that ends where V is not finite, is retried in substeps; if all retries fail the status says why and the state is untouched.
   StepReport step(State& state);
 
   void set_time_step(double dt) { dt_ = dt; }

@@ -38,7 +38,7 @@ const char* describe(Status status) {
              "or the tolerance is below the rounding of the forces";
     case Status::singular:
       return "the system matrix is singular: a motion without stiffness is left (too few pins, a "
-             "loose part) or the load is critical";
+             "loose part), the load is critical, or stiffnesses differ by more than rounding allows";
     case Status::not_finite:
       return "an energy or force is not finite: the solid is inverted, or the motion blew up";
   }
