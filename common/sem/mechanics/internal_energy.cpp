@@ -16,11 +16,12 @@ namespace {
 // Columns multiplied at once fill less than this, which the product copies.
 constexpr int product_columns_bytes = 64 << 10;
 
-// F at point k from its columns.
+// F at point k of n: row b n + k holds its column b.
 template <int Dim>
-Mat<Dim> assemble_F(const std::array<Points<Dim>, Dim>& columns, int k) {
+Mat<Dim> F_at(const Eigen::Matrix<double, Eigen::Dynamic, Dim>& rows, int k) {
+  const int n = int(rows.rows()) / Dim;
   Mat<Dim> F;
-  for (int b = 0; b < Dim; ++b) F.col(b) = columns[b].col(k);
+  for (int b = 0; b < Dim; ++b) F.col(b) = rows.row(b * n + k).transpose();
   return F;
 }
 
@@ -51,7 +52,7 @@ InternalEnergy<Dim>::InternalEnergy(const Map<Dim>& map, const VectorXd& weight,
     most_scaled = std::max(most_scaled, long(Dim) * n * n_columns);
     most_columns = std::max(most_columns, long(n_columns));
     work_[b].nodes.resize(Dim, n_columns);
-    for (auto& F : work_[b].F) F.resize(Dim, n);
+    work_[b].F.resize(Dim * n, Dim);
     work_[b].gradient.resize(Dim * n, n_columns);
     for (int axis = 0; axis < Dim; ++axis)
       work_[b].gradient.middleRows(axis * n, n) = block.gradient[axis](Eigen::all, assembly_.order(int(b)));
@@ -86,10 +87,14 @@ PotentialWork InternalEnergy<Dim>::work() const {
 }
 
 template <int Dim>
-void InternalEnergy<Dim>::deformation_gradients(const Points<Dim>& y, const MapBlock<Dim>& block,
-                                                Workspace& work) {
-  for (size_t j = 0; j < block.columns.size(); ++j) work.nodes.col(j) = y.col(block.columns[j]);
-  for (int b = 0; b < Dim; ++b) work.F[b].noalias() = work.nodes * block.gradient[b].transpose();
+void InternalEnergy<Dim>::deformation_gradients(int b) {
+  Workspace& work = work_[b];
+  const auto& columns = map_.blocks[b].columns;
+  const auto& order = assembly_.order(b);
+  for (size_t j = 0; j < order.size(); ++j) work.nodes.col(j) = y_.col(columns[order[j]]);
+  const int n = int(work.gradient.rows()), N = int(work.gradient.cols());
+  work.F.setZero();
+  dense_kernels().add_scaled_product(1, work.F.data(), n, work.gradient.data(), n, work.nodes.data(), Dim, n, Dim, N);
 }
 
 template <int Dim>
@@ -99,9 +104,9 @@ bool InternalEnergy<Dim>::update_pressure(const VectorXd& z) {
   set_coefficients(map_, z, y_);
   for (size_t i = 0; i < work_.size(); ++i) {
     const auto& block = map_.blocks[i];
-    deformation_gradients(y_, block, work_[i]);
+    deformation_gradients(int(i));
     for (size_t k = 0; k < block.points.size(); ++k) {
-      const Mat<Dim> F = assemble_F<Dim>(work_[i].F, int(k));
+      const Mat<Dim> F = F_at<Dim>(work_[i].F, int(k));
       if (!std::isfinite(energy_density<Dim>(material(block.points[k]), F))) return false;
       g[block.points[k]] = volume_measure<Dim>(material(block.points[k]).model, F).value;
     }
@@ -130,10 +135,10 @@ double InternalEnergy<Dim>::mixed_energy(const VectorXd& z) {
   set_coefficients(map_, z, y_);
   for (size_t i = 0; i < work_.size(); ++i) {
     const auto& block = map_.blocks[i];
-    deformation_gradients(y_, block, work_[i]);
+    deformation_gradients(int(i));
     for (size_t k = 0; k < block.points.size(); ++k)
       sum += weight_[block.points[k]] *
-             energy_density<Dim>(material(block.points[k]), assemble_F<Dim>(work_[i].F, int(k)),
+             energy_density<Dim>(material(block.points[k]), F_at<Dim>(work_[i].F, int(k)),
                                   pressure(block.points[k]));
   }
   return sum;
@@ -168,16 +173,19 @@ void InternalEnergy<Dim>::gradient(const VectorXd& z, VectorXd& g) {
   for (size_t i = 0; i < work_.size(); ++i) {
     const auto& block = map_.blocks[i];
     Workspace& work = work_[i];
-    deformation_gradients(y_, block, work);
+    deformation_gradients(int(i));
     for (size_t k = 0; k < block.points.size(); ++k) {
       const Mat<Dim> P = weight_[block.points[k]] *
-                         first_piola<Dim>(material(block.points[k]), assemble_F<Dim>(work.F, int(k)),
+                         first_piola<Dim>(material(block.points[k]), F_at<Dim>(work.F, int(k)),
                                               pressure(block.points[k]));
-      for (int b = 0; b < Dim; ++b) work.F[b].col(k) = P.col(b);  // F is not needed any more
+      for (int b = 0; b < Dim; ++b) work.F.row(b * block.points.size() + k) = P.col(b).transpose();  // F is not needed any more
     }
-    work.nodes.setZero();
-    for (int b = 0; b < Dim; ++b) work.nodes.noalias() += work.F[b] * block.gradient[b];
-    for (size_t j = 0; j < block.columns.size(); ++j) forces_.col(block.columns[j]) += work.nodes.col(j);
+    const int n = int(work.gradient.rows()), N = int(work.gradient.cols());
+    Eigen::Map<Rows> sum(product_.data(), N, Dim);
+    sum.setZero();
+    dense_kernels().add_product(sum.data(), N, work.gradient.data(), n, work.F.data(), n, N, Dim, n);
+    const auto& order = assembly_.order(int(i));
+    for (int j = 0; j < N; ++j) forces_.col(block.columns[order[j]]) += sum.row(j).transpose();
   }
   add_shared(map_, forces_);
   g = Eigen::Map<const VectorXd>(forces_.data(), size());
@@ -193,7 +201,7 @@ template <int Dim>
 void InternalEnergy<Dim>::set_tangents(const MapBlock<Dim>& block, bool project_psd, Workspace& work) {
   for (size_t k = 0; k < block.points.size(); ++k) {
     const int point = block.points[k];
-    const StressDerivative<Dim> C = stress_derivative<Dim>(material(point), assemble_F<Dim>(work.F, int(k)), pressure(point));
+    const StressDerivative<Dim> C = stress_derivative<Dim>(material(point), F_at<Dim>(work.F, int(k)), pressure(point));
     const StressDerivative<Dim> scaled = weight_[point] * (project_psd ? project_to_psd<Dim>(C) : C);
     for (int e = 0; e < scaled.size(); ++e) work.tangent[e][k] = scaled.data()[e];
   }
@@ -246,7 +254,7 @@ void InternalEnergy<Dim>::hessian(const VectorXd& z, bool project_psd, Symmetric
   if (stability_.size() > 0) H.add(1, stability_);
   set_coefficients(map_, z, y_);
   for (size_t i = 0; i < work_.size(); ++i) {
-    deformation_gradients(y_, map_.blocks[i], work_[i]);
+    deformation_gradients(int(i));
     set_tangents(map_.blocks[i], project_psd, work_[i]);
     assembly_.add(int(i), local_hessian(work_[i]), H);
   }
@@ -265,14 +273,14 @@ void InternalEnergy<Dim>::add_pressure_hessian(const VectorXd& z, SymmetricMatri
     const auto& block = map_.blocks[i];
     const auto& values = q.interior.blocks[i];
     Workspace& work = work_[i];
-    deformation_gradients(y_, block, work);
+    deformation_gradients(int(i));
     const int n = int(block.points.size());
     scaled.resize(n, block.columns.size());
     std::array<Points<Dim>, Dim> first;  // v dg/dF_ab: column a of row b
     for (auto& rows : first) rows = Points<Dim>::Zero(Dim, n);
     for (int k = 0; k < n; ++k) {
       if (!pressure(block.points[k])) continue;
-      const auto g = volume_measure<Dim>(material(block.points[k]).model, assemble_F<Dim>(work.F, k));
+      const auto g = volume_measure<Dim>(material(block.points[k]).model, F_at<Dim>(work.F, k));
       for (int b = 0; b < Dim; ++b) first[b].col(k) = weight_[block.points[k]] * g.first.col(b);
     }
     MatrixXd local(values.columns.size(), block.columns.size());

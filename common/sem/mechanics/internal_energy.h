@@ -54,16 +54,18 @@ class InternalEnergy : public Potential {
   Eigen::VectorXd pressure_coefficients(const Eigen::VectorXd& z);
 
  private:
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Dim>;  // vectors as rows
+
   // Work space of one map block, sized once.
   struct Workspace {
-    Points<Dim> nodes;                   // y of the block's columns, Dim by #columns
-    std::array<Points<Dim>, Dim> F;      // column axis of F at each point, Dim by #points each
-    Eigen::MatrixXd gradient;            // the block's, axis below axis, columns in the order of the assembly
+    Points<Dim> nodes;                   // y of the block's columns, in the order of the assembly; Dim by #columns
+    Eigen::MatrixXd gradient;            // the block's, axis below axis, columns in that order
+    Rows F;                              // gradient times the nodes: row b #points + k is column b of F at point k
     std::array<Eigen::ArrayXd, Dim * Dim * Dim * Dim> tangent;  // v dP/dF at all points, entry by entry
   };
 
   void set_stability_force(const Eigen::VectorXd& z);
-  void deformation_gradients(const Points<Dim>& y, const MapBlock<Dim>& block, Workspace& work);
+  void deformation_gradients(int block);  // from y_
   void set_tangents(const MapBlock<Dim>& block, bool project_psd, Workspace& work);
   Eigen::Map<const Eigen::MatrixXd> local_hessian(const Workspace& work);
   // Solves for the pressure at z; false where g is not defined (J <= 0).

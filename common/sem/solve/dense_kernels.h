@@ -13,8 +13,8 @@ struct DenseKernels {
   bool (*cholesky)(double* A, int n, int ld);
   /// B := B L^-T, B m by n, L n by n, its lower triangle read.
   void (*solve_right)(const double* L, int ld_l, double* B, int ld_b, int m, int n);
-  /// C -= A B^T, C m by n, A m by k, B n by k.
-  void (*subtract_product)(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int m, int n, int k);
+  /// C += factor A B^T, C m by n, A m by k, B n by k.
+  void (*add_scaled_product)(double factor, double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int m, int n, int k);
   /// C += A^T B, C m by n, A k by m, B k by n.
   void (*add_product)(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int m, int n, int k);
   /// The lower triangle of C += A^T B, C n by n, for a product that is symmetric.

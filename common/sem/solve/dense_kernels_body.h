@@ -28,8 +28,8 @@ void solve_right(const double* L, int ld_l, double* B, int ld_b, int m, int n) {
   view(L, n, n, ld_l).transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(target);
 }
 
-void subtract_product(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int m, int n, int k) {
-  view(C, m, n, ld_c).noalias() -= view(A, m, k, ld_a) * view(B, n, k, ld_b).transpose();
+void add_scaled_product(double factor, double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int m, int n, int k) {
+  view(C, m, n, ld_c).noalias() += factor * view(A, m, k, ld_a) * view(B, n, k, ld_b).transpose();
 }
 
 void add_product(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int m, int n, int k) {
@@ -43,6 +43,6 @@ void add_lower_product(double* C, int ld_c, const double* A, int ld_a, const dou
 
 }  // namespace
 
-const DenseKernels SEM_KERNELS{SEM_KERNEL_NAME, cholesky, solve_right, subtract_product, add_product, add_lower_product};
+const DenseKernels SEM_KERNELS{SEM_KERNEL_NAME, cholesky, solve_right, add_scaled_product, add_product, add_lower_product};
 
 }  // namespace sem::detail

@@ -101,12 +101,12 @@ void SparseCholesky::update_ancestors(int p) {
     auto values = factor_.panel(q);
     const int to = target.row_of(panel.rows[first]);
     if (target.row_of(panel.rows[n - 1]) - to == n - 1 - first) {  // all next to each other there
-      dense_kernels().subtract_product(&values(C * to, C * to), int(values.rows()), below, ld, below, ld, m, k, width);
+      dense_kernels().add_scaled_product(-1, &values(C * to, C * to), int(values.rows()), below, ld, below, ld, m, k, width);
     } else {
       if (product_.size() < long(m) * k) product_.resize(long(m) * k);
       Eigen::Map<Eigen::MatrixXd> product(product_.data(), m, k);
       product.setZero();
-      dense_kernels().subtract_product(product.data(), m, below, ld, below, ld, m, k, width);
+      dense_kernels().add_scaled_product(-1, product.data(), m, below, ld, below, ld, m, k, width);
       for (int i = first; i < n; ++i) {
         const int row = C * target.row_of(panel.rows[i]);
         for (int j = first; j < last; ++j)
