@@ -1,11 +1,8 @@
 #pragma once
 // Exact interior rules by rays: the transverse range is split at its critical values.
 
-#include <array>
-
 #include "sem/method/cells.h"
 #include "sem/method/components.h"
-#include "sem/method/rays.h"
 
 namespace sem {
 
@@ -24,9 +21,5 @@ std::vector<Cell<2>> ray_cells<2>(const Component<2>& component, int axis,
 template <>
 std::vector<Cell<3>> ray_cells<3>(const Component<3>& component, int axis,
                                   const Yardstick<3>& yardstick);
-
-/// How the ends of an interval move near a critical value, from the interval on rays at distances d, 4 d and
-/// 16 d from it. Changes up to `rounding` (m) tell nothing.
-EndKind end_kind_of(const std::array<RayInterval, 3>& at, double rounding);
 
 }  // namespace sem
