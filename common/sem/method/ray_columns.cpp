@@ -91,18 +91,42 @@ bool RayColumns<Dim>::continues(const RayInterval& a, const RayInterval& b) cons
          std::abs(a.end - b.end) < near;
 }
 
+// From the ends' places at distances 1 : 4 : 16 of a share of the band.
 template <int Dim>
-EndKind RayColumns<Dim>::end_kind(const RayBand& band, bool at_upper) const {
-  const double d = 1e-6 * (band.upper - band.lower);
+std::vector<EndKind> RayColumns<Dim>::end_kinds(double lower, double upper, int n_intervals,
+                                                bool at_upper, double share) const {
+  const double d = share * (upper - lower);
   std::vector<double> y;
   for (const double distance : {d, 4 * d, 16 * d})
-    y.push_back(at_upper ? band.upper - distance : band.lower + distance);
-  std::vector<RayInterval> at;
-  for (const auto& ray : cast_at(y)) {
-    if (int(ray.intervals.size()) != band.n_intervals) return EndKind::smooth;
-    at.push_back(ray.intervals[band.interval]);
+    y.push_back(at_upper ? upper - distance : lower + distance);
+  const auto rays = cast_at(y);
+  std::vector<EndKind> kinds(n_intervals, EndKind::smooth);
+  for (const auto& ray : rays)
+    if (int(ray.intervals.size()) != n_intervals) return kinds;
+  for (int i = 0; i < n_intervals; ++i)
+    kinds[i] = end_kind_of({rays[0].intervals[i], rays[1].intervals[i], rays[2].intervals[i]},
+                           1e-13 * size_);
+  return kinds;
+}
+
+template <int Dim>
+EndKind RayColumns<Dim>::end_kind(const RayBand& band, bool at_upper) const {
+  return end_kinds(band.lower, band.upper, band.n_intervals, at_upper, 1e-6)[band.interval];
+}
+
+template <int Dim>
+std::vector<RayColumn> RayColumns<Dim>::columns_between(const std::vector<double>& values) const {
+  constexpr double share = 1e-4;  // rays closer to a tangent cost more
+  std::vector<RayColumn> columns;
+  for (size_t k = 0; k + 1 < values.size(); ++k) {
+    const double lower = values[k], upper = values[k + 1];
+    const int n = n_intervals_at((lower + upper) / 2);
+    if (n == 0) continue;
+    const auto at_lower = end_kinds(lower, upper, n, false, share);
+    const auto at_upper = end_kinds(lower, upper, n, true, share);
+    for (int i = 0; i < n; ++i) columns.push_back({{{lower, upper, i, n}}, at_lower[i], at_upper[i]});
   }
-  return end_kind_of({at[0], at[1], at[2]}, 1e-13 * size_);
+  return columns;
 }
 
 template <int Dim>

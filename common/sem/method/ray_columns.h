@@ -45,6 +45,9 @@ class RayColumns {
   std::vector<std::vector<RayBand>> chains(const std::vector<double>& values) const;
   /// How an interval's ends move near an end of its band.
   EndKind end_kind(const RayBand& band, bool at_upper) const;
+  /// A column for every interval between neighbours of the values, ascending, that change nothing in
+  /// between.
+  std::vector<RayColumn> columns_between(const std::vector<double>& values) const;
   /// n rays' stretches in the column, at points of the rule for its ends; empty if one of them has
   /// other intervals than the bands say.
   Strands<Dim> strands(const RayColumn& column, int n) const;
@@ -52,6 +55,8 @@ class RayColumns {
  private:
   std::vector<Ray<Dim>> cast_at(const std::vector<double>& transverse) const;
   int n_intervals_at(double y) const { return int(cast_at({y})[0].intervals.size()); }
+  std::vector<EndKind> end_kinds(double lower, double upper, int n_intervals, bool at_upper,
+                                 double share) const;
   std::vector<double> band_ends(const std::vector<double>& values) const;
   bool continues(const RayInterval& a, const RayInterval& b) const;
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sem/nurbs/hits.h"
+
 namespace sem {
 namespace {
 
@@ -44,6 +46,39 @@ bool closes_like_ellipse(const PreparedNurbs<2, 3>& shape, const Param<2>& u) {
   return L * N - M * M > 1e-6 * (L * L + N * N + M * M);
 }
 
+// The place nearest to the origin where the line meets the boundary, NaN if that is farther than `most`.
+double nearest_hit(const Boundary<3>& boundary, const Line<3>& line, double most) {
+  std::vector<Hit<3>> hits;
+  for (const auto& part : boundary.parts) append_hits(part, line, -most, most, hits);
+  double best = NAN;
+  for (const auto& hit : hits)
+    if (!(std::abs(hit.t) >= std::abs(best))) best = hit.t;
+  return best;
+}
+
+// Whether the boundary goes on analytically across the border of a piece, near X on it: its height over
+// the tangent plane, interpolated by a polynomial of degree 7 from both sides.
+bool is_analytic_at(const Boundary<3>& boundary, const Vec<3>& X, const Vec<3>& normal,
+                    const Vec<3>& across, double reach) {
+  constexpr double node[] = {-1, -0.7, -0.4, -0.15, 0.15, 0.4, 0.7, 1}, check[] = {-0.85, -0.27, 0.27, 0.85};
+  const auto height_at = [&](double x) {
+    return nearest_hit(boundary, {X + x * reach * across, normal}, reach / 2);
+  };
+  double height[8];
+  for (int i = 0; i < 8; ++i) height[i] = height_at(node[i]);
+  for (const double x : check) {
+    double interpolated = 0;
+    for (int i = 0; i < 8; ++i) {
+      double value = height[i];
+      for (int j = 0; j < 8; ++j)
+        if (j != i) value *= (x - node[j]) / (node[i] - node[j]);
+      interpolated += value;
+    }
+    if (!(std::abs(interpolated - height_at(x)) < 1e-8 * reach)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Vec<3> Sweep::SweptEdge::at(double s) const {
@@ -59,7 +94,7 @@ Sweep::Sweep(const Component<3>& component, int axis, int across, int height)
   for (const auto& part : component.boundary.parts)
     for (const auto& piece : part.pieces) {
       add_piece(part, piece);
-      if (!part.region) add_edges(piece);
+      if (!part.region) add_edges(part, piece);
     }
   find_heights();
 }
@@ -88,11 +123,12 @@ void Sweep::add_piece(const PreparedNurbs<2, 3>& shape, const BezierPiece<2, 3>&
   pieces_.push_back(std::move(swept));
 }
 
-void Sweep::add_edges(const BezierPiece<2, 3>& piece) {
+void Sweep::add_edges(const PreparedNurbs<2, 3>& part, const BezierPiece<2, 3>& piece) {
   for (int along = 0; along < 2; ++along)
     for (const double side : {0.0, 1.0}) {
       SweptEdge edge{&piece, along, side, {}};
       if ((edge.at(0) - edge.at(1)).norm() + (edge.at(0) - edge.at(0.37)).norm() < 1e-12 * size_) continue;
+      if (is_smooth(part, edge)) continue;
       const auto rise = [&](double s) {
         constexpr double d = 1e-6;
         return edge.at(std::min(1.0, s + d))[height_] - edge.at(std::max(0.0, s - d))[height_];
@@ -105,6 +141,22 @@ void Sweep::add_edges(const BezierPiece<2, 3>& piece) {
       edge.stops.push_back(1);
       edges_.push_back(std::move(edge));
     }
+}
+
+// Borders that nothing shows of, as between the patches of a ball, need no split.
+bool Sweep::is_smooth(const PreparedNurbs<2, 3>& part, const SweptEdge& edge) const {
+  for (const double s : {0.31, 0.73}) {
+    Param<2> u;
+    u[edge.along] = s;
+    u[1 - edge.along] = edge.side;
+    const auto at =
+        derivatives(part.nurbs, Param<2>(edge.piece->lower + u.cwiseProduct(edge.piece->upper - edge.piece->lower)), 1);
+    const Vec<3> normal = DimTraits<3>::area_normal(at.first).normalized();
+    const Vec<3> across = normal.cross(at.first.col(edge.along)).normalized();
+    if (!is_analytic_at(component_.boundary, at.point, normal, across, 0.04 * edge.piece->box.diagonal()))
+      return false;
+  }
+  return true;
 }
 
 void Sweep::find_heights() {

@@ -16,7 +16,7 @@ struct CriticalHeight {
   EndKind kind;
 };
 
-/// Of the untrimmed pieces and their borders, by the normals' components in Bernstein form: complete
+/// Of the pieces and the borders of untrimmed ones, by the normals' components in Bernstein form: complete
 /// but for places where surfaces cross, and borders that are trim curves alone.
 class Sweep {
  public:
@@ -26,7 +26,7 @@ class Sweep {
   /// Ascending, from the lowest point to the highest.
   const std::vector<CriticalHeight>& heights() const { return heights_; }
   /// In the plane at a height, along `across`: where the section turns back or a border of pieces
-  /// passes, ascending.
+  /// passes across which the boundary is not analytic, ascending.
   std::vector<double> across_at(double height) const;
 
  private:
@@ -49,7 +49,8 @@ class Sweep {
   };
 
   void add_piece(const PreparedNurbs<2, 3>& shape, const BezierPiece<2, 3>& piece);
-  void add_edges(const BezierPiece<2, 3>& piece);
+  void add_edges(const PreparedNurbs<2, 3>& part, const BezierPiece<2, 3>& piece);
+  bool is_smooth(const PreparedNurbs<2, 3>& part, const SweptEdge& edge) const;
   void find_heights();
 
   const Component<3>& component_;
