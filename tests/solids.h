@@ -80,12 +80,13 @@ inline Parts<3> box<3>(const Vec<3>& lower, const Vec<3>& upper, int n) {
   return parts;
 }
 
-/// Rational quadratic arcs in the plane of x (distance from the z axis) and y = z, turned about that axis
+/// Rational quadratic arcs and segments in the plane of x (distance from the z axis) and y = z, turned about that axis
 /// in quarters: patches with du x dv outward for arcs that run up (poles where they end on the axis).
 inline Parts<3> turned(const Parts<2>& arcs) {
   Parts<3> parts;
   for (int k = 0; k < 4; ++k)
-    for (const auto& curve : arcs) {
+    for (const auto& part : arcs) {
+      const auto curve = elevate_degree(part, 0, 2 - part.degree[0]);
       const auto around = arc({0, 0}, 1, M_PI / 2 * k, M_PI / 2 * (k + 1));
       Nurbs<2, 3> patch;
       patch.degree = {2, 2};

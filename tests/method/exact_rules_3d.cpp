@@ -129,3 +129,74 @@ TEST_CASE("a surface with a gap has no fan, whatever its sides are") {
   for (const auto& component : solid.rule(InteriorRule::fans, 1e-2).components)
     CHECK(component.rule != "fan");
 }
+
+TEST_CASE(
+    "a ball with poles and a turned cylinder by rays: volume and moments to degree 6 to 1e-10") {
+  const ExactSolid ball(test::ball());
+  const auto rule = ball.rule(InteriorRule::split_rays);
+  check_points(ball, rule.quadrature, 1500);
+  CHECK(std::abs(rule.quadrature.weight.sum() / (4 * M_PI / 3) - 1) < 1e-12);
+  CHECK(error_of_moments(ball, rule.quadrature) < 1e-10);
+  CHECK(error_of_waves(ball, rule.quadrature) < 1e-10);
+  const ExactSolid cylinder(
+      with_map(test::turned({segment<2>({0, 0}, {1, 0}), segment<2>({1, 0}, {1, 2}),
+                             segment<2>({1, 2}, {0, 2})}),
+               some_turn()));
+  const auto turned = cylinder.rule(InteriorRule::split_rays);
+  check_points(cylinder, turned.quadrature, 2500);
+  CHECK(std::abs(turned.quadrature.weight.sum() / (2 * M_PI) - 1) < 1e-10);
+  CHECK(error_of_moments(cylinder, turned.quadrature) < 1e-10);
+}
+
+TEST_CASE("a torus from any direction: volume and moments to degree 6 to 1e-8") {
+  const Mat<3> across = Eigen::AngleAxisd(M_PI / 2, Vec<3>::UnitY()).toRotationMatrix();
+  for (const Mat<3>& A : {across, some_turn()}) {
+    const ExactSolid torus(with_map(test::torus(1, 0.45), A));
+    const auto rule = torus.rule(InteriorRule::exact, 1e-8);
+    CHECK(rule.error <= 1e-8);
+    check_points(torus, rule.quadrature, 9200);
+    CHECK(std::abs(rule.quadrature.weight.sum() / (2 * M_PI * M_PI * 0.45 * 0.45) - 1) < 1e-8);
+    CHECK(error_of_moments(torus, rule.quadrature) < 1e-8);
+    CHECK(error_of_waves(torus, rule.quadrature) < 1e-8);
+  }
+}
+
+TEST_CASE(
+    "a block with a round channel, upright and sheared: volume and moments to degree 6 to 1e-10") {
+  // Four patches on each end, from the circle to the square.
+  const double r = 0.4;
+  std::vector<Vec<2>> corner, on_circle;
+  for (int k = 0; k <= 4; ++k) {
+    const double angle = M_PI / 4 + M_PI / 2 * k;
+    corner.push_back({std::sqrt(2) * std::cos(angle), std::sqrt(2) * std::sin(angle)});
+  }
+  Parts<3> parts;
+  for (int k = 0; k < 4; ++k) {
+    const auto inner = test::arc({0, 0}, r, M_PI / 4 + M_PI / 2 * k, M_PI / 4 + M_PI / 2 * (k + 1));
+    const auto outer = elevate_degree(segment<2>(corner[k], corner[k + 1]), 0, 1);
+    const auto between = [&](const Nurbs<1, 2>& a, double z_a, const Nurbs<1, 2>& b, double z_b) {
+      Nurbs<2, 3> patch;
+      patch.degree = {2, 1};
+      patch.knots = {a.knots[0], {0, 0, 1, 1}};
+      patch.control_points.resize(3, 6);
+      patch.control_points.leftCols(3) << a.control_points, Eigen::RowVector3d::Constant(z_a);
+      patch.control_points.rightCols(3) << b.control_points, Eigen::RowVector3d::Constant(z_b);
+      patch.weights.resize(6);
+      patch.weights << a.weights, b.weights;
+      return patch;
+    };
+    parts.push_back(between(inner, 0, outer, 0));
+    parts.push_back(between(inner, 1, outer, 1));
+    parts.push_back(between(inner, 0, inner, 1));
+    parts.push_back(between(outer, 0, outer, 1));
+  }
+  Mat<3> shear = Mat<3>::Identity();
+  shear(0, 2) = 0.3;
+  for (const Mat<3>& A : {Mat<3>(Mat<3>::Identity()), shear}) {
+    const ExactSolid block(with_map(parts, A));
+    const auto rule = block.rule();
+    check_points(block, rule.quadrature, 12000);
+    CHECK(std::abs(rule.quadrature.weight.sum() / (4 - M_PI * r * r) - 1) < 1e-10);
+    CHECK(error_of_moments(block, rule.quadrature) < 1e-10);
+  }
+}

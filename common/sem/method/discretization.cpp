@@ -169,7 +169,6 @@ Quadrature<Dim> resolve_weights(Discretization<Dim>& d) {
   ResolvedOptions options;
   options.axis = d.options.rays.axis;
   options.points = std::max(3, d.options.projection.degree + 1);
-  if (getenv("RP")) options.points = atoi(getenv("RP"));
   options.tolerance = d.options.interior_rule.weight_tolerance;
   // Where weights are smooth a few points would do for them, but not for all the functions they carry.
   if (d.options.formulation == Formulation::condensed)

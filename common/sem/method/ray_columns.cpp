@@ -87,8 +87,7 @@ std::vector<std::vector<RayBand>> RayColumns<Dim>::chains(const std::vector<doub
 template <int Dim>
 bool RayColumns<Dim>::continues(const RayInterval& a, const RayInterval& b) const {
   const double near = 1e-6 * size_;
-  return a.solid == b.solid && std::abs(a.begin - b.begin) < near &&
-         std::abs(a.end - b.end) < near;
+  return a.solid == b.solid && std::abs(a.begin - b.begin) < near && std::abs(a.end - b.end) < near;
 }
 
 // From the ends' places at distances 1 : 4 : 16 of a share of the band.
@@ -124,7 +123,8 @@ std::vector<RayColumn> RayColumns<Dim>::columns_between(const std::vector<double
     if (n == 0) continue;
     const auto at_lower = end_kinds(lower, upper, n, false, share);
     const auto at_upper = end_kinds(lower, upper, n, true, share);
-    for (int i = 0; i < n; ++i) columns.push_back({{{lower, upper, i, n}}, at_lower[i], at_upper[i]});
+    for (int i = 0; i < n; ++i)
+      columns.push_back({{{lower, upper, i, n}}, at_lower[i], at_upper[i]});
   }
   return columns;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Internal: the inside along the rays of one plane, cut into columns in which intervals move smoothly.
+// Internal: the inside along the rays of one plane, cut into columns in which intervals move
+// smoothly.
 
 #include <array>
 
@@ -29,8 +30,8 @@ struct RayColumn {
   EndKind lower_end, upper_end;
 };
 
-/// How the ends of an interval move near a critical value, from the interval on rays at distances d, 4 d and
-/// 16 d from it. Changes up to `rounding` (m) tell nothing.
+/// How the ends of an interval move near a critical value, from the interval on rays at distances
+/// d, 4 d and 16 d from it. Changes up to `rounding` (m) tell nothing.
 EndKind end_kind_of(const std::array<RayInterval, 3>& at, double rounding);
 
 template <int Dim>
@@ -45,8 +46,8 @@ class RayColumns {
   std::vector<std::vector<RayBand>> chains(const std::vector<double>& values) const;
   /// How an interval's ends move near an end of its band.
   EndKind end_kind(const RayBand& band, bool at_upper) const;
-  /// A column for every interval between neighbours of the values, ascending, that change nothing in
-  /// between.
+  /// A column for every interval between neighbours of the values, ascending, that change nothing
+  /// in between.
   std::vector<RayColumn> columns_between(const std::vector<double>& values) const;
   /// n rays' stretches in the column, at points of the rule for its ends; empty if one of them has
   /// other intervals than the bands say.

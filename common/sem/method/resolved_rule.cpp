@@ -82,15 +82,6 @@ class Refiner {
       refine(error);
     }
     collect(result);
-    if (getenv("DUMP")) {
-      Eigen::VectorXd I = Eigen::VectorXd::Zero(leaves_[0].whole.integral.size()), C = I;
-      double abs = 0, sq = 0;
-      for (auto& leaf : leaves_) { I += leaf.whole.integral; abs += leaf.error; sq += leaf.error * leaf.error;
-        if (leaf.refinable) C += leaf.halves[0].integral + leaf.halves[1].integral - leaf.whole.integral; }
-      printf("DUMP abs %g rss %g cancelled %g  I:", abs / I.sum(), std::sqrt(sq) / I.sum(), C.cwiseAbs().sum() / I.sum());
-      for (int i = 0; i < I.size(); ++i) printf(" %.12g", I[i]);
-      printf("\n");
-    }
     return result;
   }
 

@@ -27,8 +27,8 @@ Mat<3> principal_axes(Mat<3> A) {
   return frame;
 }
 
-// The axes in which the solid is cut, as columns: those of space where they are the body's principal
-// axes, where faces lie across them, or where parts are trimmed; else the principal ones.
+// The axes in which the solid is cut, as columns: those of space where they are the body's
+// principal axes, where faces lie across them, or where parts are trimmed; else the principal ones.
 Mat<3> frame_of(const Component<3>& component) {
   Mat<3> frame = Mat<3>::Identity();
   double area = 0, faced = 0;
@@ -44,8 +44,8 @@ Mat<3> frame_of(const Component<3>& component) {
   }
   const auto moments = boundary_moments(component.boundary, component.loops);
   if (!moments.available || faced > 0.2 * area) return frame;
-  const Mat<3> covariance =
-      moments.second / moments.volume - moments.first * moments.first.transpose() / std::pow(moments.volume, 2);
+  const Mat<3> covariance = moments.second / moments.volume -
+                            moments.first * moments.first.transpose() / std::pow(moments.volume, 2);
   const double off_axis =
       (covariance - Mat<3>(covariance.diagonal().asDiagonal())).cwiseAbs().maxCoeff();
   return off_axis > 1e-9 * covariance.trace() ? principal_axes(covariance) : frame;
@@ -84,10 +84,14 @@ std::vector<RayColumn> cut(const RayColumn& column, bool in_halves) {
 class SlabSplitter {
  public:
   // The component in the coordinates of the frame.
-  SlabSplitter(std::shared_ptr<const Component<3>> component, const Mat<3>& frame, int axis, int height,
-               const Yardstick<3>& yardstick)
-      : component_(std::move(component)), frame_(frame), axis_(axis), across_(3 - axis - height),
-        height_(height), yardstick_(yardstick),
+  SlabSplitter(std::shared_ptr<const Component<3>> component, const Mat<3>& frame, int axis,
+               int height, const Yardstick<3>& yardstick)
+      : component_(std::move(component)),
+        frame_(frame),
+        axis_(axis),
+        across_(3 - axis - height),
+        height_(height),
+        yardstick_(yardstick),
         sweep_(std::make_shared<Sweep>(*component_, axis, across_, height)) {}
 
   int n_slabs() const { return int(sweep_->heights().size()) - 1; }
@@ -96,7 +100,8 @@ class SlabSplitter {
     std::vector<Cell<3>> result;
     const auto& heights = sweep_->heights();
     int budget = 12;
-    for (size_t k = 0; k + 1 < heights.size(); ++k) append_halved({heights[k], heights[k + 1]}, budget, result);
+    for (size_t k = 0; k + 1 < heights.size(); ++k)
+      append_halved({heights[k], heights[k + 1]}, budget, result);
     return result;
   }
 
@@ -126,16 +131,17 @@ class SlabSplitter {
   }
 
   Cell<3> fit(const Slab& slab) const {
-    return fit_cell<3>([splitter = *this, slab](int n) { return splitter.strands(slab, n); }, yardstick_,
-                       most_strands);
+    return fit_cell<3>([splitter = *this, slab](int n) { return splitter.strands(slab, n); },
+                       yardstick_, most_strands);
   }
 
-  // Appends the cell of a slab or, where it takes too many rays, the one with halved columns or those
-  // of its halves, as long as the budget of halvings lasts.
+  // Appends the cell of a slab or, where it takes too many rays, the one with halved columns or
+  // those of its halves, as long as the budget of halvings lasts.
   void append_halved(const Slab& slab, int& budget, std::vector<Cell<3>>& cells) const {
     auto cell = fit(slab);
     if (!cell.fitted)
-      if (auto finer = fit({slab.lower, slab.upper, true}); finer.fitted || budget == 0) cell = std::move(finer);
+      if (auto finer = fit({slab.lower, slab.upper, true}); finer.fitted || budget == 0)
+        cell = std::move(finer);
     if (cell.fitted || budget == 0) {
       cells.push_back(std::move(cell));
       return;
@@ -160,9 +166,17 @@ std::vector<Cell<3>> ray_cells<3>(const Component<3>& component, int axis,
                                   const Yardstick<3>& yardstick) {
   const Mat<3> frame = frame_of(component);
   const auto in_frame = turned(component, frame);
-  const SlabSplitter first(in_frame, frame, axis, (axis + 1) % 3, yardstick);
-  const SlabSplitter second(in_frame, frame, axis, (axis + 2) % 3, yardstick);
-  return (second.n_slabs() < first.n_slabs() ? second : first).cells();
+  std::vector<SlabSplitter> splitters;
+  int fewest = std::numeric_limits<int>::max(), best = -1;
+  for (int along = 0; along < 3; ++along)
+    for (const int height : {(along + 1) % 3, (along + 2) % 3}) {
+      splitters.emplace_back(in_frame, frame, along, height, yardstick);
+      fewest = std::min(fewest, splitters.back().n_slabs());
+    }
+  for (int k = 0; k < 2 && best < 0; ++k)
+    if (splitters[2 * axis + k].n_slabs() == fewest) best = 2 * axis + k;
+  if (best < 0) return {};
+  return splitters[best].cells();
 }
 
 }  // namespace sem

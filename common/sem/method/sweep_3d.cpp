@@ -22,14 +22,17 @@ double bisected(const F& f, double a, double b) {
 }
 
 Bivariate jacobian(const Bivariate& a, const Bivariate& b) {
-  return sum(product(derivative(a, 0), derivative(b, 1)), product(derivative(a, 1), derivative(b, 0)), -1);
+  return sum(product(derivative(a, 0), derivative(b, 1)),
+             product(derivative(a, 1), derivative(b, 0)), -1);
 }
 
-// Component of the normal across coordinates a and b, each times w: the determinant of (a, b, w) and
-// its derivatives, or of a and b alone where w is constant.
-Bivariate normal_component(const Bivariate& a, const Bivariate& b, const Bivariate& w, bool rational) {
+// Component of the normal across coordinates a and b, each times w: the determinant of (a, b, w)
+// and its derivatives, or of a and b alone where w is constant.
+Bivariate normal_component(const Bivariate& a, const Bivariate& b, const Bivariate& w,
+                           bool rational) {
   if (!rational) return jacobian(a, b);
-  return sum(sum(product(a, jacobian(b, w)), product(b, jacobian(a, w)), -1), product(w, jacobian(a, b)));
+  return sum(sum(product(a, jacobian(b, w)), product(b, jacobian(a, w)), -1),
+             product(w, jacobian(a, b)));
 }
 
 double largest_of(const Bivariate& f) {
@@ -38,29 +41,37 @@ double largest_of(const Bivariate& f) {
   return largest;
 }
 
-// Determinant and trace of the second fundamental form, of the shape scaled to size 1; signs alone count.
+// Whether the surface is curved to one side at an extremum of the height. A pole, where an edge of
+// the patch is one point and has no normal, counts as such.
 bool closes_like_ellipse(const PreparedNurbs<2, 3>& shape, const Param<2>& u) {
   const auto at = derivatives(shape.nurbs, u, 2);
   const Vec<3> normal = DimTraits<3>::area_normal(at.first);
-  const double L = normal.dot(at.second[0]), M = normal.dot(at.second[1]), N = normal.dot(at.second[2]);
+  if (normal.norm() < 1e-7 * at.first.squaredNorm()) return true;
+  const double L = normal.dot(at.second[0]), M = normal.dot(at.second[1]),
+               N = normal.dot(at.second[2]);
   return L * N - M * M > 1e-6 * (L * L + N * N + M * M);
 }
 
-// The place nearest to the origin where the line meets the boundary, NaN if that is farther than `most`.
+// The place nearest to the origin where the line meets the boundary, NaN if that is farther than
+// `most`.
 double nearest_hit(const Boundary<3>& boundary, const Line<3>& line, double most) {
   std::vector<Hit<3>> hits;
-  for (const auto& part : boundary.parts) append_hits(part, line, -most, most, hits);
+  for (const auto& part : boundary.parts)
+    if ((line.origin.array() >= part.box.lower.array() - most).all() &&
+        (line.origin.array() <= part.box.upper.array() + most).all())
+      append_hits(part, line, -most, most, hits);
   double best = NAN;
   for (const auto& hit : hits)
     if (!(std::abs(hit.t) >= std::abs(best))) best = hit.t;
   return best;
 }
 
-// Whether the boundary goes on analytically across the border of a piece, near X on it: its height over
-// the tangent plane, interpolated by a polynomial of degree 7 from both sides.
+// Whether the boundary goes on analytically across the border of a piece, near X on it: its height
+// over the tangent plane, interpolated by a polynomial of degree 7 from both sides.
 bool is_analytic_at(const Boundary<3>& boundary, const Vec<3>& X, const Vec<3>& normal,
                     const Vec<3>& across, double reach) {
-  constexpr double node[] = {-1, -0.7, -0.4, -0.15, 0.15, 0.4, 0.7, 1}, check[] = {-0.85, -0.27, 0.27, 0.85};
+  constexpr double node[] = {-1, -0.7, -0.4, -0.15, 0.15, 0.4, 0.7, 1},
+                   check[] = {-0.85, -0.27, 0.27, 0.85};
   const auto height_at = [&](double x) {
     return nearest_hit(boundary, {X + x * reach * across, normal}, reach / 2);
   };
@@ -89,7 +100,10 @@ Vec<3> Sweep::SweptEdge::at(double s) const {
 }
 
 Sweep::Sweep(const Component<3>& component, int axis, int across, int height)
-    : component_(component), axis_(axis), across_(across), height_(height),
+    : component_(component),
+      axis_(axis),
+      across_(across),
+      height_(height),
       size_(component.boundary.box.diagonal()) {
   for (const auto& part : component.boundary.parts)
     for (const auto& piece : part.pieces) {
@@ -108,7 +122,8 @@ void Sweep::add_piece(const PreparedNurbs<2, 3>& shape, const BezierPiece<2, 3>&
   std::array<Bivariate, 3> X;
   for (int a = 0; a < 3; ++a) {
     X[a].degree = degree;
-    for (int i = 0; i < n; ++i) X[a].c.push_back(piece.weights[i] * (piece.points(a, i) - middle[a]));
+    for (int i = 0; i < n; ++i)
+      X[a].c.push_back(piece.weights[i] * (piece.points(a, i) - middle[a]));
   }
   SweptPiece swept{&shape, &piece, {}, {}, {}, {}};
   const double size = piece.box.diagonal(), heaviest = piece.weights.maxCoeff();
@@ -127,7 +142,8 @@ void Sweep::add_edges(const PreparedNurbs<2, 3>& part, const BezierPiece<2, 3>& 
   for (int along = 0; along < 2; ++along)
     for (const double side : {0.0, 1.0}) {
       SweptEdge edge{&piece, along, side, {}};
-      if ((edge.at(0) - edge.at(1)).norm() + (edge.at(0) - edge.at(0.37)).norm() < 1e-12 * size_) continue;
+      if ((edge.at(0) - edge.at(1)).norm() + (edge.at(0) - edge.at(0.37)).norm() < 1e-12 * size_)
+        continue;
       if (is_smooth(part, edge)) continue;
       const auto rise = [&](double s) {
         constexpr double d = 1e-6;
@@ -149,11 +165,13 @@ bool Sweep::is_smooth(const PreparedNurbs<2, 3>& part, const SweptEdge& edge) co
     Param<2> u;
     u[edge.along] = s;
     u[1 - edge.along] = edge.side;
-    const auto at =
-        derivatives(part.nurbs, Param<2>(edge.piece->lower + u.cwiseProduct(edge.piece->upper - edge.piece->lower)), 1);
+    const auto at = derivatives(
+        part.nurbs,
+        Param<2>(edge.piece->lower + u.cwiseProduct(edge.piece->upper - edge.piece->lower)), 1);
     const Vec<3> normal = DimTraits<3>::area_normal(at.first).normalized();
     const Vec<3> across = normal.cross(at.first.col(edge.along)).normalized();
-    if (!is_analytic_at(component_.boundary, at.point, normal, across, 0.04 * edge.piece->box.diagonal()))
+    if (!is_analytic_at(component_.boundary, at.point, normal, across,
+                        0.04 * edge.piece->box.diagonal()))
       return false;
   }
   return true;
@@ -164,10 +182,12 @@ void Sweep::find_heights() {
   for (const auto& swept : pieces_) {
     const Vec<2> rounding(swept.rounding[axis_], swept.rounding[across_]);
     for (const auto& zero : common_zeros(swept.normal[axis_], swept.normal[across_], rounding)) {
-      const Param<2> u = swept.piece->lower + zero.s.cwiseProduct(swept.piece->upper - swept.piece->lower);
+      const Param<2> u =
+          swept.piece->lower + zero.s.cwiseProduct(swept.piece->upper - swept.piece->lower);
       if (swept.shape->region && !swept.shape->region->contains(u)) continue;
-      const bool smooth = zero.regular && closes_like_ellipse(*swept.shape, u);
-      all.push_back({point(*swept.piece, zero.s)[height_], smooth ? EndKind::smooth : EndKind::root});
+      const bool smooth = closes_like_ellipse(*swept.shape, u);
+      all.push_back(
+          {point(*swept.piece, zero.s)[height_], smooth ? EndKind::smooth : EndKind::root});
     }
   }
   for (const auto& edge : edges_)
@@ -177,7 +197,8 @@ void Sweep::find_heights() {
     }
   for (const auto& part : component_.boundary.parts)
     if (part.region)
-      for (const Vec<3>& corner : part.region->corners()) all.push_back({corner[height_], EndKind::smooth});
+      for (const Vec<3>& corner : part.region->corners())
+        all.push_back({corner[height_], EndKind::smooth});
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
   for (const auto& height : all) {
     if (heights_.empty() || height.value - heights_.back().value > 1e-10 * size_)
@@ -195,7 +216,8 @@ std::vector<double> Sweep::across_at(double height) const {
     const Bivariate in_plane = sum(swept.height, swept.weight, -height);
     const Vec<2> rounding(1e-15 * size_ * largest_of(swept.weight), swept.rounding[axis_]);
     for (const auto& zero : common_zeros(in_plane, swept.normal[axis_], rounding)) {
-      const Param<2> u = swept.piece->lower + zero.s.cwiseProduct(swept.piece->upper - swept.piece->lower);
+      const Param<2> u =
+          swept.piece->lower + zero.s.cwiseProduct(swept.piece->upper - swept.piece->lower);
       if (swept.shape->region && !swept.shape->region->contains(u)) continue;
       all.push_back(point(*swept.piece, zero.s)[across_]);
     }

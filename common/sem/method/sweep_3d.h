@@ -9,15 +9,15 @@
 namespace sem {
 
 /// A height at which the integral over the section may not be smooth, and how it behaves there:
-/// smooth at extrema (a section that closes like an ellipse) and corners, else analytic in the square
-/// root at best (at a saddle times a logarithm).
+/// smooth at extrema (a section that closes like an ellipse) and corners, else analytic in the
+/// square root at best (at a saddle times a logarithm).
 struct CriticalHeight {
   double value;
   EndKind kind;
 };
 
-/// Of the pieces and the borders of untrimmed ones, by the normals' components in Bernstein form: complete
-/// but for places where surfaces cross, and borders that are trim curves alone.
+/// Of the pieces and the borders of untrimmed ones, by the normals' components in Bernstein form:
+/// complete but for places where surfaces cross, and borders that are trim curves alone.
 class Sweep {
  public:
   /// Rays along `axis`, side by side along `across`, planes across `height`: the three axes.
@@ -34,7 +34,8 @@ class Sweep {
   struct SweptPiece {
     const PreparedNurbs<2, 3>* shape;
     const BezierPiece<2, 3>* piece;
-    detail::Bivariate height, weight;  // numerator and denominator of the height, in the normal's degrees
+    detail::Bivariate height,
+        weight;  // numerator and denominator of the height, in the normal's degrees
     std::array<detail::Bivariate, 3> normal;
     std::array<double, 3> rounding;  // of the normal's components
   };

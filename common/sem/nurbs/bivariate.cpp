@@ -9,8 +9,8 @@
 namespace sem::detail {
 namespace {
 
-constexpr int most_halvings = 30;    // of regular patches
-constexpr int coarse_halvings = 4;   // where there are too many: a curve of zeros
+constexpr int most_halvings = 30;   // of regular patches
+constexpr int coarse_halvings = 4;  // where there are too many: a curve of zeros
 constexpr int most_patches = 3000;
 constexpr int most_degree = 3 * max_nurbs_degree;
 
@@ -110,8 +110,8 @@ class ZeroFinder {
     return true;
   }
 
-  // The zero next to s by Newton's method (least squares where it is not regular), if it lies in the
-  // patch to rounding.
+  // The zero next to s by Newton's method (least squares where it is not regular), if it lies in
+  // the patch to rounding.
   void add(Vec<2> s, const ZeroPatch& patch, bool regular) {
     const Vec<2> size = patch.upper - patch.lower;
     const double slack = regular ? 1e-9 : 0.5;
@@ -149,7 +149,8 @@ class ZeroFinder {
     for (int axis = 0; axis < 2; ++axis)
       for (size_t k = 0, n = parts.size(); k < n; ++k) {
         ZeroPatch left = parts[k];
-        split_patch<2>(parts[k].c.data(), degree_.data(), axis, 0.5, left.c.data(), parts[k].c.data());
+        split_patch<2>(parts[k].c.data(), degree_.data(), axis, 0.5, left.c.data(),
+                       parts[k].c.data());
         left.upper[axis] = parts[k].lower[axis] = (left.lower[axis] + left.upper[axis]) / 2;
         parts.push_back(std::move(left));
       }
@@ -207,7 +208,8 @@ Bivariate raised(const Bivariate& f, const std::array<int, 2>& degree) {
   return product(f, {by, std::vector<double>(size_t(by[0] + 1) * (by[1] + 1), 1.0)});
 }
 
-std::vector<CommonZero> common_zeros(const Bivariate& f, const Bivariate& g, const Vec<2>& rounding) {
+std::vector<CommonZero> common_zeros(const Bivariate& f, const Bivariate& g,
+                                     const Vec<2>& rounding) {
   return ZeroFinder(f, g, rounding).run();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Internal: polynomials of two variables on [0, 1]^2 in Bernstein form, and where two of them vanish.
+// Internal: polynomials of two variables on [0, 1]^2 in Bernstein form, and where two of them
+// vanish.
 
 #include <array>
 #include <vector>
@@ -28,10 +29,11 @@ struct CommonZero {
   bool regular;
 };
 
-/// Common zeros of f and g, of the same degrees, in [0, 1]^2 by subdivision: none that is regular is
-/// missed. A zero on the border of two patches may be listed twice. Of a curve of common zeros some
-/// points are listed, at distances of at most 1/16, not regular. None if one of the two is zero
-/// to `rounding` (of f, of g) everywhere.
-std::vector<CommonZero> common_zeros(const Bivariate& f, const Bivariate& g, const Vec<2>& rounding);
+/// Common zeros of f and g, of the same degrees, in [0, 1]^2 by subdivision: none that is regular
+/// is missed. A zero on the border of two patches may be listed twice. Of a curve of common zeros
+/// some points are listed, at distances of at most 1/16, not regular. None if one of the two is
+/// zero to `rounding` (of f, of g) everywhere.
+std::vector<CommonZero> common_zeros(const Bivariate& f, const Bivariate& g,
+                                     const Vec<2>& rounding);
 
 }  // namespace sem::detail
