@@ -80,6 +80,40 @@ inline Parts<3> box<3>(const Vec<3>& lower, const Vec<3>& upper, int n) {
   return parts;
 }
 
+/// Rational quadratic arcs and segments in the plane of x (distance from the z axis) and y = z, turned about that axis
+/// in quarters: patches with du x dv outward for arcs that run up (poles where they end on the axis).
+inline Parts<3> turned(const Parts<2>& arcs) {
+  Parts<3> parts;
+  for (int k = 0; k < 4; ++k)
+    for (const auto& part : arcs) {
+      const auto curve = elevate_degree(part, 0, 2 - part.degree[0]);
+      const auto around = arc({0, 0}, 1, M_PI / 2 * k, M_PI / 2 * (k + 1));
+      Nurbs<2, 3> patch;
+      patch.degree = {2, 2};
+      patch.knots.fill({0, 0, 0, 1, 1, 1});
+      patch.control_points.resize(3, 9);
+      patch.weights.resize(9);
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) {
+          const Vec<2> X = curve.control_points.col(j);
+          const double radius = std::abs(X[0]) < 1e-15 ? 0 : X[0];
+          patch.control_points.col(3 * j + i) << radius * around.control_points.col(i), X[1];
+          patch.weights[3 * j + i] = curve.weights[j] * around.weights[i];
+        }
+      parts.push_back(patch);
+    }
+  return parts;
+}
+
+inline Parts<3> ball() {
+  return turned({arc({0, 0}, 1, -M_PI / 2, 0), arc({0, 0}, 1, 0, M_PI / 2)});
+}
+
+/// About the z axis.
+inline Parts<3> torus(double radius, double tube_radius) {
+  return turned(circle({radius, 0}, tube_radius));
+}
+
 template <int Dim>
 Parts<Dim> unit_box(int n = 1) {
   return box<Dim>(Vec<Dim>::Zero(), Vec<Dim>::Ones(), n);

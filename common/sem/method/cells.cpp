@@ -18,7 +18,7 @@ VectorXd integrals_over(const Strands<Dim>& strands, const SmoothIntegrands<Dim>
                         double tolerance) {
   VectorXd sum = VectorXd::Zero(f.size());
   for (const auto& strand : strands)
-    for_each_point(strand, f.wave_number(), tolerance,
+    for_each_point(strand, f.rate(), tolerance,
                    [&](const Vec<Dim>& X, double weight) { f.add(X, weight, sum); });
   return sum;
 }
@@ -59,7 +59,7 @@ class CellTuner {
       sum -= cells_[c].reference;
       if (trial(c).strands.empty()) sum[0] = std::numeric_limits<double>::infinity();
       for (const auto& strand : trial(c).strands)
-        for_each_point(strand, f.wave_number(), on_strands * yardstick_.scale[0],
+        for_each_point(strand, f.rate(), on_strands * yardstick_.scale[0],
                        [&](const Vec<Dim>& X, double weight) {
                          f.add(X, weight, sum);
                          ++n_points;
@@ -90,7 +90,7 @@ class CellTuner {
     std::vector<Vec<Dim>> position;
     for (size_t c = 0; c < cells_.size(); ++c)
       for (const auto& strand : trial(c).strands)
-        for_each_point(strand, yardstick_.integrands.wave_number(),
+        for_each_point(strand, yardstick_.integrands.rate(),
                        on_strands * yardstick_.scale[0], [&](const Vec<Dim>& X, double weight) {
                          position.push_back(X);
                          result.weight.push_back(weight);

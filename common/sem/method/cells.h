@@ -10,7 +10,7 @@
 
 namespace sem {
 
-/// n strands of a rule that fills the cell, n >= 1; empty where the family breaks down
+/// n strands (3D: n in each of two directions) of a rule that fills the cell, n >= 1; empty where the family breaks down
 /// (intervals that come and go, a fan that folds back).
 template <int Dim>
 using StrandFamily = std::function<Strands<Dim>(int n)>;
@@ -28,12 +28,12 @@ struct Yardstick {
 template <int Dim>
 struct Cell {
   struct Trial {
-    Strands<Dim> strands;
+    Strands<Dim> strands;  ///< of the family's n = 1, 2, ...
     Eigen::VectorXd deviation;  ///< integrals minus the reference, relative
     double error;               ///< the largest of them
   };
   Eigen::VectorXd reference;  ///< integrals of the integrands, to rounding
-  std::vector<Trial> trials;  ///< trials[n - 1] has n strands
+  std::vector<Trial> trials;  ///< trials[n - 1]: the family's n
   bool fitted = false;        ///< the last trial is accurate enough
 
   int n_strands() const { return int(trials.size()); }

@@ -48,24 +48,48 @@ class RayCaster {
   }
 
   // Fills the ray's hits and intervals. A ray through an edge that parts share is cast a little beside
-  // it: by 1e-8 of the model, then by more.
+  // it: by 1e-8 of the model, then by more, on both sides; its intervals are the mean.
   void cast(Ray<Dim>& ray, bool& unpaired, double& capped_length) const {
-    std::vector<Crossing> crossings;
     const Vec<Dim> origin = ray.origin;
-    double aside = 1e-8 * boundary_.box.diagonal();
-    for (int attempt = 0; attempt < 4 && !collect_all(ray, crossings); ++attempt, aside *= 5)
-      for (int a = 0; a < Dim; ++a)
-        if (a != axis_) ray.origin[a] = origin[a] + aside / (1.7 + 3.1 * a);
+    double aside = 0;
+    bool sure = cast_beside(ray, origin, 0, unpaired, capped_length);
+    for (int attempt = 0; attempt < 4 && !sure; ++attempt) {
+      aside = attempt == 0 ? 1e-8 * boundary_.box.diagonal() : 5 * aside;
+      sure = cast_beside(ray, origin, aside, unpaired, capped_length);
+    }
+    if (aside == 0) return;
+    Ray<Dim> other = ray;
+    bool other_unpaired = false;
+    double other_length = 0;
+    if (!cast_beside(other, origin, -aside, other_unpaired, other_length) || other_unpaired ||
+        other.intervals.size() != ray.intervals.size())
+      return;
+    for (size_t k = 0; k < ray.intervals.size(); ++k) {
+      ray.intervals[k].begin = (ray.intervals[k].begin + other.intervals[k].begin) / 2;
+      ray.intervals[k].end = (ray.intervals[k].end + other.intervals[k].end) / 2;
+    }
+  }
+
+ private:
+  // False if a hit is in doubt.
+  bool cast_beside(Ray<Dim>& ray, const Vec<Dim>& origin, double aside, bool& unpaired,
+                   double& capped_length) const {
+    std::vector<Crossing> crossings;
+    for (int a = 0; a < Dim; ++a)
+      if (a != axis_) ray.origin[a] = origin[a] + aside / (1.7 + 3.1 * a);
+    const bool sure = collect_all(ray, crossings);
     ray.origin = origin;
+    ray.intervals.clear();
+    capped_length = 0;
     std::stable_sort(ray.hits.begin(), ray.hits.end(),
                      [](const RayHit& a, const RayHit& b) { return a.t < b.t; });
     std::stable_sort(crossings.begin(), crossings.end(),
                      [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
     unpaired = drop_unpaired(crossings, int(loops_.loops.size()));
     unite(crossings, ray, capped_length);
+    return sure;
   }
 
- private:
   // False if a hit is in doubt.
   bool collect_all(Ray<Dim>& ray, std::vector<Crossing>& crossings) const {
     ray.hits.clear();

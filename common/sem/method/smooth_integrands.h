@@ -1,6 +1,7 @@
 #pragma once
 // What a quadrature rule is judged by: integrands that resemble smooth energies.
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -21,8 +22,8 @@ class SmoothIntegrands {
   Eigen::VectorXd values(const Vec<Dim>& X) const;
   /// sum += weight * values(X), without allocating.
   void add(const Vec<Dim>& X, double weight, Eigen::VectorXd& sum) const;
-  /// 2 pi waves / size, 1/m.
-  double wave_number() const { return wave_number_; }
+  /// The fastest rate of change, 1/m: 2 pi waves / size, or that of xi^6 at the end of the size.
+  double rate() const { return std::max(wave_number_, 6 / half_size_); }
 
  private:
   Vec<Dim> center_;

@@ -1,11 +1,8 @@
 #pragma once
 // Exact interior rules by rays: the transverse range is split at its critical values.
 
-#include <array>
-
 #include "sem/method/cells.h"
 #include "sem/method/components.h"
-#include "sem/method/rays.h"
 
 namespace sem {
 
@@ -13,8 +10,11 @@ namespace sem {
 /// 2D: a cell for every interval between two critical values, with the rule for its ends (root
 /// where a curve turns back). Cells that continue each other are joined where the joint part needs
 /// fewer rays, so smooth joints and knots cost nothing; cells that need too many are halved.
-/// 3D: all intervals over a product of transverse ranges between critical values, rays at Gauss
-/// points of both: exact for solids bounded by planes across the axes, of finite order elsewhere.
+/// 3D: a plane sweeps the solid; between two of its critical heights (sweep_3d.h) n sections, in each the
+/// columns between the values critical there, n rays a column. In the coordinates of the body's
+/// principal axes unless parts are trimmed or face along the axes (a torus then has no saddle
+/// heights); `axis` counts there. Slabs that need too many rays have their columns cut in two, or are
+/// halved. Empty for an axis for which all sweeps have more slabs than one for another axis.
 template <int Dim>
 std::vector<Cell<Dim>> ray_cells(const Component<Dim>& component, int axis,
                                  const Yardstick<Dim>& yardstick);
@@ -24,9 +24,5 @@ std::vector<Cell<2>> ray_cells<2>(const Component<2>& component, int axis,
 template <>
 std::vector<Cell<3>> ray_cells<3>(const Component<3>& component, int axis,
                                   const Yardstick<3>& yardstick);
-
-/// How the ends of an interval move near a critical value, from the interval on rays at distances d, 4 d and
-/// 16 d from it. Changes up to `rounding` (m) tell nothing.
-EndKind end_kind_of(const std::array<RayInterval, 3>& at, double rounding);
 
 }  // namespace sem

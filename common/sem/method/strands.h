@@ -11,7 +11,7 @@ namespace sem {
 
 /// A share of the area (volume), swept by a segment: the integral of f over it is
 ///   weight * integral over s in (0, 1) of density(s) f(from + s (to - from)),
-/// with a linear density of mean 1, density(0) : density(1) = start : 1.
+/// with a density of mean 1 that grows like (start + (1 - start) s)^(Dim - 1).
 template <int Dim>
 struct Strand {
   Vec<Dim> from, to;  ///< m
@@ -42,7 +42,12 @@ void for_each_point(const Strand<Dim>& strand, double wave_number, double tolera
       gauss_on_strand(points_for_wave(wave_number * along.norm(), tolerance / strand.weight));
   for (size_t k = 0; k < rule.node.size(); ++k) {
     const double s = rule.node[k];
-    const double density = 2 * (strand.start + (1 - strand.start) * s) / (1 + strand.start);
+    double power = 1, power_of_start = 1, sum = 1;
+    for (int a = 1; a < Dim; ++a) {
+      power *= strand.start + (1 - strand.start) * s;
+      sum += power_of_start *= strand.start;
+    }
+    const double density = Dim * power / sum;
     visit(Vec<Dim>(strand.from + s * along), strand.weight * rule.weight[k] * density);
   }
 }

@@ -8,7 +8,7 @@
 #include "sem/base/error.h"
 #include "sem/method/border_curves.h"
 #include "sem/method/critical_values.h"
-#include "sem/method/split_rays.h"
+#include "sem/method/ray_columns.h"
 #include "sem/nurbs/hits.h"
 #include "sem/nurbs/refine.h"
 
