@@ -110,6 +110,13 @@ Json info_json(const Scene<Dim>& scene, const Model<Dim>& model, const std::stri
   json["loops"] = d.loops.loops.size();
   json["gaps"] = d.loops.n_gaps;
   json["longest_gap_m"] = d.loops.longest_gap;
+  for (const auto& loop : d.loops.loops)
+    json["shells"].push_back({{"solid", scene.solids[loop.solid].name},
+                              {"parts", loop.parts.size()},
+                              {"depth", loop.depth},
+                              {"closed", loop.closed()},
+                              {"free_edges", loop.n_free_borders},
+                              {"widest_gap_m", loop.gap}});
   json["parts_of_undecided_orientation"] = std::count(d.loops.orientation.begin(), d.loops.orientation.end(), 0);
   json["control_points"] = d.boundary.n_controls();
   json["unknowns"] = model.n_unknowns();
