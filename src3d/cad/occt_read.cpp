@@ -224,7 +224,7 @@ void find_volume(const std::vector<FoundFace>& faces, CadModel& model) {
 
 bool has_cad() { return true; }
 
-CadModel read_cad(const std::string& file) {
+CadModel read_cad(const std::string& file, bool measure) {
   const bool iges = is_iges(file);
   require_whole(file, iges);
   quiet_occt();
@@ -248,11 +248,12 @@ CadModel read_cad(const std::string& file) {
       part.color = face.color;
       part.solid = face.solid;
       model.parts.push_back(std::move(part));
+      if (!measure) continue;
       GProp_GProps surface;
       BRepGProp::SurfaceProperties(face.face, surface, 1e-9);
       model.area.push_back(surface.Mass() * metres * metres);
     }
-    find_volume(found.faces, model);
+    if (measure) find_volume(found.faces, model);
     return model;
   } catch (const InputError& error) {
     if (std::string(error.what()).starts_with(file)) throw;
