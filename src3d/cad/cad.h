@@ -29,7 +29,7 @@ struct CadModel {
   // OpenCASCADE's own, for comparison.
   std::vector<double> area;      ///< m^2, of each part
   std::optional<double> volume;  ///< m^3, sum over the shells that faces make when joined to 1e-4
-                                 ///< of the size; none: edges stay free
+                                 ///< of the size; none: edges stay free, or it reads a face wrongly
   int n_free_edges = 0;
 };
 
