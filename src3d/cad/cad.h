@@ -29,7 +29,7 @@ struct CadModel {
   // OpenCASCADE's own, for comparison.
   std::vector<double> area;      ///< m^2, of each part
   std::optional<double> volume;  ///< m^3, sum over the shells that faces make when joined to 1e-4
-                                 ///< of the size; none: edges stay free, or it reads a face wrongly
+                                 ///< of the size; none: edges stay free
   int n_free_edges = 0;
 };
 
@@ -40,8 +40,8 @@ bool has_cad();
 bool is_cad_file(const std::string& file);
 
 /// Every face as NURBS with its trims, in metres whatever the file's unit. Throws InputError for a
-/// file that is not there, not readable, empty, cut off or without faces, and if the build has no
-/// OpenCASCADE. `measure`: also OpenCASCADE's own areas, volume and free edges.
+/// file that is not there, not readable, empty, cut off, without faces or with one that
+/// OpenCASCADE takes from the wrong side, and if the build has no OpenCASCADE. `measure`: also OpenCASCADE's own areas, volume and free edges.
 CadModel read_cad(const std::string& file, bool measure = true);
 
 /// Writes the parts, each as a face with its name and colour, in mm; read_cad gives the same back,

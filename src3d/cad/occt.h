@@ -15,9 +15,9 @@ namespace sem {
 
 constexpr double metres = 1e-3;  ///< OpenCASCADE's lengths are mm
 
-/// A face as a part of this name, in m. Adds what had to be mended to the notes. `complement`: the
-/// rest of its surface instead. Throws InputError, without the file.
-CadPart part_of_face(const TopoDS_Face& face, const std::string& name, bool complement,
+/// A face as a part of this name, in m. Adds what had to be mended to the notes. Throws InputError,
+/// without the file.
+CadPart part_of_face(const TopoDS_Face& face, const std::string& name,
                      std::vector<std::string>& notes);
 
 /// Its progress and warnings do not go to the output.

@@ -81,7 +81,7 @@ Vec<2> end_point(const Nurbs<1, 2>& curve, bool last) {
 
 class FaceConverter {
  public:
-  FaceConverter(const std::string& name, bool complement) : name_(name), complement_(complement) {}
+  explicit FaceConverter(const std::string& name) : name_(name) {}
 
   // One part; notes what had to be mended.
   CadPart convert(const TopoDS_Face& original, std::vector<std::string>& notes) {
@@ -128,7 +128,6 @@ class FaceConverter {
       if (!loop.empty()) part.trims.push_back(std::move(loop));
     }
     if (is_natural(part.trims)) part.trims.clear();
-    if (complement_) part.trims.push_back(border_of_domain());
     check_trims<3>(part.shape, part.trims, "", "face '" + name_ + "'.trims");
   }
 
@@ -206,12 +205,6 @@ class FaceConverter {
     return result;
   }
 
-  // Parity takes the other side of the loops inside it.
-  std::vector<Nurbs<1, 2>> border_of_domain() const {
-    const Vec<2> a = box_.lower, c = box_.upper, b(c[0], a[1]), d(a[0], c[1]);
-    return {segment<2>(a, b), segment<2>(b, c), segment<2>(c, d), segment<2>(d, a)};
-  }
-
   // True if the loops do nothing but run once around the domain.
   bool is_natural(const TrimLoops& trims) const {
     double twice_area = 0;
@@ -235,16 +228,15 @@ class FaceConverter {
   }
 
   std::string name_;
-  bool complement_;
   Nurbs<2, 3> surface_;
   Box<2> box_;
 };
 
 }  // namespace
 
-CadPart part_of_face(const TopoDS_Face& face, const std::string& name, bool complement,
+CadPart part_of_face(const TopoDS_Face& face, const std::string& name,
                      std::vector<std::string>& notes) {
-  return FaceConverter(name, complement).convert(face, notes);
+  return FaceConverter(name).convert(face, notes);
 }
 
 }  // namespace sem

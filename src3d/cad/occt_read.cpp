@@ -1,6 +1,5 @@
 // Reading IGES and STEP with OpenCASCADE.
 #include <BRepBndLib.hxx>
-#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
@@ -244,8 +243,8 @@ void find_volume(const std::vector<FoundFace>& faces, CadModel& model) {
 }
 
 // For each face found whether OpenCASCADE turned it about: where loops on a closed surface bound two
-// regions, as circles on a sphere do, its reader may take the wrong one, and turns the face so that the
-// solid closes. Solids most of whose faces are turned are turned as a whole.
+// regions, as circles on a sphere do, its reader may take the wrong one, and then turns the face so
+// that the solid closes. Solids most of whose faces are turned are turned as a whole.
 std::vector<bool> find_wrong_sides(const std::vector<FoundFace>& found, int n_solids,
                                    const std::vector<TopoDS_Shape>& oriented) {
   std::vector<bool> wrong(found.size(), false);
@@ -295,21 +294,18 @@ CadModel read_cad(const std::string& file, bool measure) {
       for (int k = 1; name.empty() || count[name] > 1 || used.count(name) > 0; ++k)
         name = group + "." + std::to_string(k);
       used.insert(name);
-      CadPart part = part_of_face(face.face, name, wrong_side[f], model.notes);
       if (wrong_side[f])
-        model.notes.push_back("face '" + name + "': OpenCASCADE takes the wrong side of its trims; the other is taken");
+        throw InputError("", "face '" + name + "'",
+                         "loops of which OpenCASCADE takes the wrong side, on a closed surface",
+                         "such a face in smaller pieces, or the model as IGES");
+      CadPart part = part_of_face(face.face, name, model.notes);
       part.color = face.color;
       part.solid = face.solid;
       model.parts.push_back(std::move(part));
       if (!measure) continue;
-      const double area = area_of(face.face);
-      const auto whole = [&] {
-        return area_of(BRepBuilderAPI_MakeFace(BRep_Tool::Surface(face.face), 1e-7));
-      };
-      model.area.push_back(wrong_side[f] ? whole() - area : area);
+      model.area.push_back(area_of(face.face));
     }
-    const bool all_right = std::none_of(wrong_side.begin(), wrong_side.end(), [](bool wrong) { return wrong; });
-    if (measure && all_right) find_volume(found.faces, model);
+    if (measure) find_volume(found.faces, model);
     return model;
   } catch (const InputError& error) {
     if (std::string(error.what()).starts_with(file)) throw;
