@@ -41,7 +41,8 @@ bool is_cad_file(const std::string& file);
 
 /// Every face as NURBS with its trims, in metres whatever the file's unit. Throws InputError for a
 /// file that is not there, not readable, empty, cut off, without faces or with one that
-/// OpenCASCADE takes from the wrong side, and if the build has no OpenCASCADE. `measure`: also OpenCASCADE's own areas, volume and free edges.
+/// OpenCASCADE takes from the wrong side, and if the build has no OpenCASCADE. `measure`: also
+/// OpenCASCADE's own areas, volume and free edges.
 CadModel read_cad(const std::string& file, bool measure = true);
 
 /// Writes the parts, each as a face with its name and colour, in mm; read_cad gives the same back,

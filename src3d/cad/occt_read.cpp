@@ -242,9 +242,9 @@ void find_volume(const std::vector<FoundFace>& faces, CadModel& model) {
   model.volume = volume * metres * metres * metres;
 }
 
-// For each face found whether OpenCASCADE turned it about: where loops on a closed surface bound two
-// regions, as circles on a sphere do, its reader may take the wrong one, and then turns the face so
-// that the solid closes. Solids most of whose faces are turned are turned as a whole.
+// For each face found whether OpenCASCADE turned it about: where loops on a closed surface bound
+// two regions, as circles on a sphere do, its reader may take the wrong one, and then turns the
+// face so that the solid closes. Solids most of whose faces are turned are turned as a whole.
 std::vector<bool> find_wrong_sides(const std::vector<FoundFace>& found, int n_solids,
                                    const std::vector<TopoDS_Shape>& oriented) {
   std::vector<bool> wrong(found.size(), false);
@@ -253,7 +253,8 @@ std::vector<bool> find_wrong_sides(const std::vector<FoundFace>& found, int n_so
     const auto as_in_file = std::find_if(oriented.begin(), oriented.end(), [&](const auto& face) {
       return face.IsSame(found[f].face);
     });
-    wrong[f] = as_in_file != oriented.end() && as_in_file->Orientation() != found[f].face.Orientation();
+    wrong[f] =
+        as_in_file != oriented.end() && as_in_file->Orientation() != found[f].face.Orientation();
     ++n_faces[found[f].solid];
     n_wrong[found[f].solid] += wrong[f];
   }

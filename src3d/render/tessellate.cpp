@@ -119,8 +119,8 @@ PieceGrid grid_of(const Surface& surface, const Piece& piece, const Flatness& fl
   return grid;
 }
 
-// A trimmed piece: triangles in the parameter plane, each with corners of its own, and the segments in which
-// the trims cut them.
+// A trimmed piece: triangles in the parameter plane, each with corners of its own, and the segments
+// in which the trims cut them.
 class TrimmedGrid {
  public:
   TrimmedGrid(const Surface& surface, const Piece& piece, const Flatness& flatness)

@@ -1,5 +1,7 @@
 // Files as other programs write them: analytic faces, booleans, fillets.
 #ifdef SEM_TEST_OCCT
+#include <doctest/doctest.h>
+
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
@@ -13,8 +15,6 @@
 #include <STEPControl_Writer.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
-#include <doctest/doctest.h>
-
 #include <sstream>
 
 #include "folder.h"
@@ -79,7 +79,9 @@ void check_volumes(const TopoDS_Shape& shape, const std::string& name, double to
 }
 
 const TopoDS_Shape box = BRepPrimAPI_MakeBox(100., 100., 100.);
-TopoDS_Shape ball(double x, double y, double z) { return BRepPrimAPI_MakeSphere(gp_Pnt(x, y, z), 30.); }
+TopoDS_Shape ball(double x, double y, double z) {
+  return BRepPrimAPI_MakeSphere(gp_Pnt(x, y, z), 30.);
+}
 
 }  // namespace
 
@@ -87,9 +89,9 @@ TEST_CASE("a box fused with a ball or a cylinder, cut or filleted by OpenCASCADE
   check_volumes(BRepAlgoAPI_Fuse(box, ball(100, 50, 50)), "ball", 1e-6);
   check_volumes(BRepAlgoAPI_Fuse(box, ball(120, 50, 50)), "ball_far", 1e-6);
   check_volumes(BRepAlgoAPI_Cut(box, ball(50, 50, 100)), "hollow", 1e-6);
-  check_volumes(
-      BRepAlgoAPI_Fuse(box, BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(50, 50, 50), gp_Dir(1, 0, 0)), 20., 100.)),
-      "cylinder", 1e-6);
+  check_volumes(BRepAlgoAPI_Fuse(box, BRepPrimAPI_MakeCylinder(
+                                          gp_Ax2(gp_Pnt(50, 50, 50), gp_Dir(1, 0, 0)), 20., 100.)),
+                "cylinder", 1e-6);
   BRepFilletAPI_MakeFillet fillet(box);
   for (TopExp_Explorer edge(box, TopAbs_EDGE); edge.More(); edge.Next())
     fillet.Add(10., TopoDS::Edge(edge.Current()));

@@ -38,7 +38,8 @@ std::string with_shape(const std::string& fields) {
 
 }  // namespace
 
-TEST_CASE("shape file: parts with names, colours and trims, in metres, from the scene's own folder") {
+TEST_CASE(
+    "shape file: parts with names, colours and trims, in metres, from the scene's own folder") {
   if (!has_cad()) return;
   const test::Folder folder("cad_shape");
   std::filesystem::create_directory(folder / "models");
@@ -51,19 +52,23 @@ TEST_CASE("shape file: parts with names, colours and trims, in metres, from the 
     CHECK(!scene.solids[0].parts[0].color.has_value());
     REQUIRE(scene.solids[0].parts[6].color.has_value());
     CHECK((*scene.solids[0].parts[6].color)[1] == doctest::Approx(0.5).epsilon(1e-2));
-    CHECK((scene.solids[0].parts[6].shape.control_points - cubes()[6].shape.control_points).norm() < 1e-12);
+    CHECK((scene.solids[0].parts[6].shape.control_points - cubes()[6].shape.control_points).norm() <
+          1e-12);
     // Written with its parts, it reads back without the file.
     const auto again = read_scene<3>(write_scene(scene), "b.json", {});
     CHECK(again.solids[0].parts[6].color == scene.solids[0].parts[6].color);
   }
-  const auto scaled = scene_of(with_shape(R"("path": "models/cubes.igs", "scale": [10, 10, 10], "move": [0, 0, 1])"),
-                               folder / "a.json");
+  const auto scaled = scene_of(
+      with_shape(R"("path": "models/cubes.igs", "scale": [10, 10, 10], "move": [0, 0, 1])"),
+      folder / "a.json");
   CHECK(scaled.solids[0].parts[0].shape.control_points.row(2).maxCoeff() == doctest::Approx(2));
-  write_cad(folder / "trimmed.igs", {{"plate", test::paraboloid(0.2), {test::circle({0, 0}, 0.5)}}});
+  write_cad(folder / "trimmed.igs",
+            {{"plate", test::paraboloid(0.2), {test::circle({0, 0}, 0.5)}}});
   const auto trimmed = scene_of(with_shape(R"("path": "trimmed.igs")"), folder / "a.json");
   CHECK(trimmed.solids[0].parts[0].trims.size() == 1);
   test::check_names(test::error_of([&] {
-                      scene_of(with_shape(R"("path": "trimmed.igs", "split": [2, 1])"), folder / "a.json");
+                      scene_of(with_shape(R"("path": "trimmed.igs", "split": [2, 1])"),
+                               folder / "a.json");
                     }),
                     folder / "a.json", {"solids[0].shape.split", "trims", "plate"});
 }
@@ -80,7 +85,8 @@ TEST_CASE("shape file: bad input names the scene, the field, what was found and 
   rejected(R"("solid": 1)", {"solids[0].shape", "path"});
   rejected(R"("path": 3)", {"solids[0].shape.path", "found 3"});
   rejected(R"("path": "")", {"solids[0].shape.path", "''", ".igs, .iges, .stp or .step"});
-  rejected(R"("path": "a.json")", {"solids[0].shape.path", "'a.json'", ".igs, .iges, .stp or .step"});
+  rejected(R"("path": "a.json")",
+           {"solids[0].shape.path", "'a.json'", ".igs, .iges, .stp or .step"});
   rejected(R"("path": "a.step", "pth": 1)", {"solids[0].shape"});
   if (!has_cad()) {
     rejected(R"("path": "a.step")", {"solids[0].shape.path", "a.step", "no OpenCASCADE"});
@@ -105,7 +111,8 @@ TEST_CASE("a CAD file alone makes a scene that says what it chose, builds, and t
   write_cad(file, parts);
   const std::string text = cad_scene(file, "a cube \"1\".step", {});
   CHECK(text.starts_with("// "));
-  for (const char* piece : {"(millimetre)", "1 solid, 6 parts", "0.1 x 0.1 x 0.1 m", "rubber", "--pin bottom, 12 control points"})
+  for (const char* piece : {"(millimetre)", "1 solid, 6 parts", "0.1 x 0.1 x 0.1 m", "rubber",
+                            "--pin bottom, 12 control points"})
     CHECK(text.find(piece) != std::string::npos);
   const auto scene = scene_of(text, file);
   CHECK(scene.name == "a cube \"1\"");
@@ -136,15 +143,18 @@ TEST_CASE("a CAD file alone: options that are none are refused by name") {
   const test::Folder folder("cad_alone_bad");
   const std::string file = folder / "cube.igs";
   write_cad(file, cubes());
-  const auto rejected = [&](const BareScene& options, const std::string& field, const std::string& found) {
+  const auto rejected = [&](const BareScene& options, const std::string& field,
+                            const std::string& found) {
     const std::string error = test::error_of([&] { cad_scene(file, "cube.igs", options); });
     CAPTURE(error);
     test::check_names(error, field, {found, "allowed"});
   };
-  for (const char* pin : {"floor", "", "1,2,3", "0,0,0,1,1,x", "0,0,0,1,1,", "0,0,0,1,1,inf", "0,0,0,1,1,1,1"})
+  for (const char* pin :
+       {"floor", "", "1,2,3", "0,0,0,1,1,x", "0,0,0,1,1,", "0,0,0,1,1,inf", "0,0,0,1,1,1,1"})
     rejected({pin, "rubber", 1}, "--pin", std::string("'") + pin + "'");
   rejected({"1,0,0,0,1,1", "rubber", 1}, "--pin", "1,0,0,0,1,1");
   rejected({"5,5,5,6,6,6", "rubber", 1}, "--pin", "without control points");
   rejected({"bottom", "cheese", 1}, "--material", "'cheese'");
-  for (const double scale : {0.0, -1.0, double(INFINITY), double(NAN)}) rejected({"bottom", "rubber", scale}, "--scale", "found");
+  for (const double scale : {0.0, -1.0, double(INFINITY), double(NAN)})
+    rejected({"bottom", "rubber", scale}, "--scale", "found");
 }

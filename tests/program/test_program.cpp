@@ -342,6 +342,9 @@ TEST_CASE("sem3d: frames as CAD files run as scenes, have info, are exported, an
   const Json cube = Json::parse(call<3>(folder, "info cube --json").out);
   CHECK(json["parts"] == cube["parts"]);
   CHECK(json["shells"][0]["closed"] == true);
+  CHECK(json["boundary_area_m2"] == doctest::Approx(double(cube["boundary_area_m2"])).epsilon(0.1));
+  CHECK(json["part_list"].size() == json["parts"]);
+  CHECK(json["part_list"][0]["trim_loops"] == 0);
   CHECK(json["longest_gap_m"] < 0.01);  // parts of a deformed state need not meet exactly
   CHECK(json["settings"]["solids"][0]["material"]["youngs_modulus"] == 5e3);
   for (size_t i = 0; i < json["parts"]; ++i)
