@@ -151,7 +151,8 @@ class SceneOfCad {
     const double across = (boundary_.box.upper - boundary_.box.lower).tail<2>().maxCoeff();
     const int rays = int(std::clamp(std::ceil(3 * across / smallest), 16.0, 40.0));
     const double spacing = std::max(smallest / 3, boundary_.box.diagonal() / 100);
-    out << "  \"method\": {\n    \"formulation\": \"condensed\",\n    \"degree\": 2,\n"
+    out << "  \"method\": {\n    \"formulation\": \"condensed\",\n    \"degree\": 2,\n    "
+           "\"own_pressure\": \"never\", // which couples all parts with each other\n"
         << "    \"quadrature\": { \"method\": \"rays\", \"axis\": \"x\", \"grid\": \"gauss\", "
            "\"rule\": \"gauss\", "
         << "\"rays\": " << rays << ", \"spacing\": " << rounded(spacing) << " },\n"
