@@ -145,12 +145,10 @@ class SceneOfCad {
 
   // Rays along x, some through every part.
   void write_method(std::ostream& out) const {
-    double smallest = boundary_.box.diagonal();
-    for (const auto& part : boundary_.parts)
-      smallest = std::min(smallest, (part.box.upper - part.box.lower).maxCoeff());
+    const double size = part_size();
     const double across = (boundary_.box.upper - boundary_.box.lower).tail<2>().maxCoeff();
-    const int rays = int(std::clamp(std::ceil(3 * across / smallest), 16.0, 40.0));
-    const double spacing = std::max(smallest / 3, boundary_.box.diagonal() / 100);
+    const int rays = int(std::clamp(std::ceil(3 * across / size), 16.0, 40.0));
+    const double spacing = std::max(size / 3, boundary_.box.diagonal() / 300);
     out << "  \"method\": {\n    \"formulation\": \"condensed\",\n    \"degree\": 2,\n    "
            "\"own_pressure\": \"never\", // which couples all parts with each other\n"
         << "    \"quadrature\": { \"method\": \"rays\", \"axis\": \"x\", \"grid\": \"gauss\", "
@@ -158,6 +156,19 @@ class SceneOfCad {
         << "\"rays\": " << rays << ", \"spacing\": " << rounded(spacing) << " },\n"
         << "    \"weights\": { \"cutoff\": " << rounded(1.5 * depth())
         << " } // covers the inside\n  },\n\n";
+  }
+
+  // Width of the parts' boxes, the second of their three extents, that nine in ten have at least,
+  // m.
+  double part_size() const {
+    std::vector<double> widths;
+    for (const auto& part : boundary_.parts) {
+      Vec<3> extent = part.box.upper - part.box.lower;
+      std::sort(extent.begin(), extent.end());
+      widths.push_back(extent[1]);
+    }
+    std::sort(widths.begin(), widths.end());
+    return std::max(widths[widths.size() / 10], 1e-3 * boundary_.box.diagonal());
   }
 
   // How far inside points on some rays lie from the closest part at most, m.
