@@ -21,12 +21,12 @@ std::vector<SceneSolid<3>> solids_of(const CadModel& model, const Material& mate
     solids[s].material = material;
   }
   for (const auto& part : model.parts)
-    solids[part.solid].parts.push_back({part.name, part.shape, {}, part.trims});
+    solids[part.solid].parts.push_back({part.name, part.shape, {}, part.trims, part.color});
   return solids;
 }
 
-std::vector<CadPart> cad_parts(const std::vector<SceneSolid<3>>& solids, const Points<3>* controls,
-                               const std::vector<CadPart>& colors) {
+std::vector<CadPart> cad_parts(const std::vector<SceneSolid<3>>& solids,
+                               const Points<3>* controls) {
   std::vector<CadPart> parts;
   Eigen::Index first = 0;
   for (size_t s = 0; s < solids.size(); ++s)
@@ -35,13 +35,11 @@ std::vector<CadPart> cad_parts(const std::vector<SceneSolid<3>>& solids, const P
       made.name = part.name;
       made.shape = part.shape;
       made.trims = part.trims;
+      made.color = part.color;
       made.solid = int(s);
       const Eigen::Index n = part.shape.control_points.cols();
       if (controls) made.shape.control_points = controls->middleCols(first, n);
       first += n;
-      const auto colored = std::find_if(colors.begin(), colors.end(),
-                                        [&](const auto& c) { return c.name == part.name; });
-      if (colored != colors.end()) made.color = colored->color;
     }
   return parts;
 }

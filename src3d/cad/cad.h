@@ -40,9 +40,10 @@ bool has_cad();
 bool is_cad_file(const std::string& file);
 
 /// Every face as NURBS with its trims, in metres whatever the file's unit. Throws InputError for a
-/// file that is not there, not readable, empty, cut off or without faces, and if the build has no
-/// OpenCASCADE.
-CadModel read_cad(const std::string& file);
+/// file that is not there, not readable, empty, cut off, without faces or with one that
+/// OpenCASCADE takes from the wrong side, and if the build has no OpenCASCADE. `measure`: also
+/// OpenCASCADE's own areas, volume and free edges.
+CadModel read_cad(const std::string& file, bool measure = true);
 
 /// Writes the parts, each as a face with its name and colour, in mm; read_cad gives the same back,
 /// control points to 1e-12 of the size. STEP or IGES by the name's ending. Throws InputError as
@@ -53,9 +54,8 @@ void write_cad(const std::string& file, const std::vector<CadPart>& parts);
 std::vector<SceneSolid<3>> solids_of(const CadModel& model, const Material& material);
 
 /// The parts of a scene's solids with the control points of a state (Dim by all control points;
-/// none: at rest), as CAD parts. `colors`: of a model read before, by name.
+/// none: at rest), as CAD parts.
 std::vector<CadPart> cad_parts(const std::vector<SceneSolid<3>>& solids,
-                               const Points<3>* controls = nullptr,
-                               const std::vector<CadPart>& colors = {});
+                               const Points<3>* controls = nullptr);
 
 }  // namespace sem

@@ -14,7 +14,7 @@ namespace {
 }  // namespace
 
 bool has_cad() { return false; }
-CadModel read_cad(const std::string& file) { refuse(file); }
+CadModel read_cad(const std::string& file, bool) { refuse(file); }
 void write_cad(const std::string& file, const std::vector<CadPart>&) { refuse(file); }
 
 }  // namespace sem

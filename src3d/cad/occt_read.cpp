@@ -11,6 +11,7 @@
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <Standard_Failure.hxx>
+#include <StepShape_FaceSurface.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
 #include <TDataStd_Name.hxx>
@@ -19,10 +20,14 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Iterator.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -61,7 +66,23 @@ void require_whole(const std::string& file, bool iges) {
 struct Document {
   Handle(TDocStd_Document) document;
   std::string unit;
+  std::vector<TopoDS_Shape> faces;  // STEP: as the file orients them
 };
+
+// Every face of the file, oriented as the file says.
+std::vector<TopoDS_Shape> oriented_faces(const Handle(XSControl_WorkSession) & session) {
+  const auto process = session->TransferReader()->TransientProcess();
+  const auto model = session->Model();
+  std::vector<TopoDS_Shape> faces;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto face = Handle(StepShape_FaceSurface)::DownCast(model->Value(i));
+    if (face.IsNull()) continue;
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, face);
+    if (!shape.IsNull() && shape.ShapeType() == TopAbs_FACE)
+      faces.push_back(shape.Oriented(face->SameSense() ? TopAbs_FORWARD : TopAbs_REVERSED));
+  }
+  return faces;
+}
 
 Document read_document(const std::string& file, bool iges) {
   Document result;
@@ -89,6 +110,7 @@ Document read_document(const std::string& file, bool iges) {
     TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
     reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
     if (lengths.Length() > 0) result.unit = lengths.First().ToCString();
+    result.faces = oriented_faces(reader.Reader().WS());
   }
   return result;
 }
@@ -220,11 +242,38 @@ void find_volume(const std::vector<FoundFace>& faces, CadModel& model) {
   model.volume = volume * metres * metres * metres;
 }
 
+// For each face found whether OpenCASCADE turned it about: where loops on a closed surface bound
+// two regions, as circles on a sphere do, its reader may take the wrong one, and then turns the
+// face so that the solid closes. Solids most of whose faces are turned are turned as a whole.
+std::vector<bool> find_wrong_sides(const std::vector<FoundFace>& found, int n_solids,
+                                   const std::vector<TopoDS_Shape>& oriented) {
+  std::vector<bool> wrong(found.size(), false);
+  std::vector<int> n_faces(n_solids, 0), n_wrong(n_solids, 0);
+  for (size_t f = 0; f < found.size(); ++f) {
+    const auto as_in_file = std::find_if(oriented.begin(), oriented.end(), [&](const auto& face) {
+      return face.IsSame(found[f].face);
+    });
+    wrong[f] =
+        as_in_file != oriented.end() && as_in_file->Orientation() != found[f].face.Orientation();
+    ++n_faces[found[f].solid];
+    n_wrong[found[f].solid] += wrong[f];
+  }
+  for (size_t f = 0; f < found.size(); ++f)
+    if (2 * n_wrong[found[f].solid] >= n_faces[found[f].solid]) wrong[f] = false;
+  return wrong;
+}
+
+double area_of(const TopoDS_Face& face) {
+  GProp_GProps surface;
+  BRepGProp::SurfaceProperties(face, surface, 1e-9);
+  return surface.Mass() * metres * metres;
+}
+
 }  // namespace
 
 bool has_cad() { return true; }
 
-CadModel read_cad(const std::string& file) {
+CadModel read_cad(const std::string& file, bool measure) {
   const bool iges = is_iges(file);
   require_whole(file, iges);
   quiet_occt();
@@ -238,21 +287,26 @@ CadModel read_cad(const std::string& file) {
     std::map<std::string, int> count;
     for (const auto& face : found.faces) ++count[plain_name(face.name)];
     std::set<std::string> used;
-    for (const auto& face : found.faces) {
+    const auto wrong_side = find_wrong_sides(found.faces, found.n_solids, document.faces);
+    for (size_t f = 0; f < found.faces.size(); ++f) {
+      const auto& face = found.faces[f];
       std::string name = plain_name(face.name);
       const std::string group = name.empty() ? "part" : name;
       for (int k = 1; name.empty() || count[name] > 1 || used.count(name) > 0; ++k)
         name = group + "." + std::to_string(k);
       used.insert(name);
+      if (wrong_side[f])
+        throw InputError("", "face '" + name + "'",
+                         "loops of which OpenCASCADE takes the wrong side, on a closed surface",
+                         "such a face in smaller pieces, or the model as IGES");
       CadPart part = part_of_face(face.face, name, model.notes);
       part.color = face.color;
       part.solid = face.solid;
       model.parts.push_back(std::move(part));
-      GProp_GProps surface;
-      BRepGProp::SurfaceProperties(face.face, surface, 1e-9);
-      model.area.push_back(surface.Mass() * metres * metres);
+      if (!measure) continue;
+      model.area.push_back(area_of(face.face));
     }
-    find_volume(found.faces, model);
+    if (measure) find_volume(found.faces, model);
     return model;
   } catch (const InputError& error) {
     if (std::string(error.what()).starts_with(file)) throw;

@@ -27,8 +27,11 @@ void split(Parts& parts, const std::array<int, 2>& n) {
   for (const auto& part : parts) {
     int number = 0;
     for (auto& piece : split(part.shape, n[0], n[1]))
-      pieces.push_back(
-          {part.name + '.' + std::to_string(++number), std::move(piece), part.material});
+      pieces.push_back({part.name + '.' + std::to_string(++number),
+                        std::move(piece),
+                        part.material,
+                        {},
+                        part.color});
   }
   parts = std::move(pieces);
 }

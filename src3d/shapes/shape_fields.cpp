@@ -1,9 +1,12 @@
 #include "src3d/shapes/shape_fields.h"
 
 #include <algorithm>
+#include <filesystem>
 
+#include "sem/base/error.h"
 #include "sem/scene/files.h"
 #include "src2d/shapes/shape_fields.h"
+#include "src3d/cad/cad.h"
 #include "src3d/shapes/box.h"
 #include "src3d/shapes/solids.h"
 
@@ -188,12 +191,19 @@ std::vector<Curve> describe_curves(Fields& fields, int n, const char* meaning) {
   return curves;
 }
 
+Parts only_part(const char* name, Nurbs<2, 3> shape) {
+  Parts parts(1);
+  parts[0].name = name;
+  parts[0].shape = std::move(shape);
+  return parts;
+}
+
 struct Ruled {};
 Parts describe(Fields& fields, Ruled) {
   const auto curves = describe_curves(
       fields, 2, "ruled: two, v = 0 and 1; coons: four, v = 0, v = 1, u = 0, u = 1");
   if (!fields.reading()) return {};
-  return {{"ruled", ruled(curves[0], curves[1]), {}}};
+  return only_part("ruled", ruled(curves[0], curves[1]));
 }
 
 struct Coons {};
@@ -220,7 +230,37 @@ Parts describe(Fields& fields, Coons) {
     if ((a.first - b.first).norm() > 1e-9 * size || std::abs(a.second - b.second) > 1e-9 * a.second)
       fields.reject("curves", "ends that do not meet",
                     "four curves that meet in four corners, with the same weights there");
-  return {{"coons", coons(ends[0], ends[1], ends[2], ends[3]), {}}};
+  return only_part("coons", coons(ends[0], ends[1], ends[2], ends[3]));
+}
+
+struct File {};
+Parts describe(Fields& fields, File) {
+  std::string path;
+  fields.require("path");
+  fields.text("path", path,
+              "file: IGES or STEP, seen from the scene's own folder; lengths in the file's unit "
+              "become m, then 'scale' applies");
+  int solid = 0;
+  fields.integer("solid", solid, 0, 1 << 30,
+                 "file: which of its solids, from 1; 0: the faces of all as one solid");
+  if (!fields.reading()) return {};
+  if (!is_cad_file(path))
+    fields.reject("path", "'" + path + "'", "a file .igs, .iges, .stp or .step");
+  const auto file = (std::filesystem::path(fields.file()).parent_path() / path).string();
+  CadModel model;
+  try {
+    model = read_cad(file, false);
+  } catch (const InputError& error) {
+    throw InputError(fields.file() + ": " + fields.path("path"), error);
+  }
+  if (solid > model.n_solids)
+    fields.reject("solid", std::to_string(solid),
+                  "at most " + std::to_string(model.n_solids) + ", those of " + file);
+  Parts parts;
+  for (const auto& part : model.parts)
+    if (solid == 0 || part.solid == solid - 1)
+      parts.push_back({part.name, part.shape, {}, part.trims, part.color});
+  return parts;
 }
 
 template <class Shape>
@@ -240,7 +280,7 @@ void describe_shape(Fields& fields, std::vector<ScenePart<3>>& parts) {
       {"sphere", described<Sphere>},     {"torus", described<Torus>},
       {"extrude", described<Extrusion>}, {"revolve", described<Revolution>},
       {"loft", described<Loft>},         {"ruled", described<Ruled>},
-      {"coons", described<Coons>}};
+      {"coons", described<Coons>},       {"file", described<File>}};
   std::vector<std::string> names;
   for (const Type& type : types) names.push_back(type.name);
   int chosen = 0;
@@ -258,6 +298,10 @@ void describe_shape(Fields& fields, std::vector<ScenePart<3>>& parts) {
   describe_placement(fields, placement);
   if (!fields.reading()) return;
   elevate(made, degree);
+  if (pieces[0] * pieces[1] > 1)
+    for (const auto& part : made)
+      if (!part.trims.empty())
+        fields.reject("split", "trims in part '" + part.name + "'", "parts without trims");
   split(made, pieces);
   place(made, placement);
   weld(made);

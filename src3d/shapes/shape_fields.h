@@ -5,7 +5,7 @@
 
 namespace sem::shapes3d {
 
-/// Describes "type" (box, cylinder, sphere, torus, extrude, revolve, loft, ruled, coons), its
+/// Describes "type" (box, cylinder, sphere, torus, extrude, revolve, loft, ruled, coons, file), its
 /// fields, and those of all types: "degree", "split", "scale", "rotate", "move", applied in this
 /// order (parts.h). Reading appends the parts. Throws InputError that names the field for a shape
 /// that box.h, solids.h or surfaces.h do not allow. A ShapeLibrary<3>.

@@ -4,6 +4,7 @@
 
 #include "dims.h"
 #include "sem/method/discretization.h"
+#include "sem/method/sided_weight.h"
 #include "solids.h"
 
 using namespace sem;
@@ -128,5 +129,53 @@ TEST_CASE_TEMPLATE("gradients of the blending weights sum to zero", T, D2, D3) {
     Vec<Dim> sum = Vec<Dim>::Zero();
     for (int e = f.w.begin[k]; e < f.w.begin[k + 1]; ++e) sum += f.w.gradient[e];
     CHECK(sum.norm() < 1e-12);
+  }
+}
+
+TEST_CASE("sided weights at a pole: the normal is its limit, and the gradient is that of the weight") {
+  // A quarter of a disc, or of a bowl, around a pole at 0 to which its edge u = 0 is collapsed.
+  for (const double bowl : {0.0, 0.003}) {
+    CAPTURE(bowl);
+    const auto quarter = test::arc({0, 0}, 1, 0, M_PI / 2);
+    Nurbs<2, 3> patch;
+    patch.degree = {2, 2};
+    patch.knots.fill({0, 0, 0, 1, 1, 1});
+    patch.control_points.resize(3, 9);
+    patch.weights.resize(9);
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) {
+        const Vec<2> X = 0.5 * i * quarter.control_points.col(j);
+        patch.control_points.col(i + 3 * j) = Vec<3>(X[0], X[1], i == 2 ? bowl : 0);
+        patch.weights[i + 3 * j] = quarter.weights[j];
+      }
+    const Boundary<3> boundary = make_boundary<3>({{patch}});
+    for (const double along : {0.0, 0.4, 1.0})
+      CHECK((unit_normal<3>(patch, Param<2>(0, along)) - Vec<3>(0, 0, 1)).norm() < 1e-4);
+    Loops<3> loops;
+    loops.loops.emplace_back().parts = {0};
+    loops.orientation = {1};
+    WeightOptions options;
+    options.variant = DistanceWeight::sided;
+    options.cutoff = 2;
+    const auto theta_at = [&](const Vec<3>& X, bool gradient) {
+      const auto distances = measure_distances<3>(boundary, loops, Points<3>(X), options.variant, options.cutoff);
+      auto theta = distance_weights(distances, options);
+      if (gradient) distance_weight_gradients(boundary, Points<3>(X), distances, theta);
+      return theta;
+    };
+    // Beside the pole, where only it is close, and a little to the outside: on the ramp of the side.
+    for (const Vec<3>& X : {Vec<3>(-0.5, -0.3, 0.03), Vec<3>(-0.2, -0.6, 0.01), Vec<3>(-0.5, -0.5, -0.1)}) {
+      CAPTURE(X.transpose());
+      const auto theta = theta_at(X, true);
+      REQUIRE(theta.theta.size() == 1);
+      CHECK(theta.theta[0] > 0.01);
+      for (int a = 0; a < 3; ++a) {
+        const double h = 1e-4;
+        const double difference =
+            (theta_at(X + h * Vec<3>::Unit(a), false).theta[0] - theta_at(X - h * Vec<3>::Unit(a), false).theta[0]) / (2 * h);
+        CHECK(theta.gradient[0][a] == doctest::Approx(difference).epsilon(5e-3));
+      }
+    }
+    CHECK(theta_at(Vec<3>(-0.5, -0.3, 0.5), false).theta.empty());  // far to the outside
   }
 }

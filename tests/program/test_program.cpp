@@ -321,3 +321,53 @@ TEST_CASE_TEMPLATE("program: a run that fails exits with 1 and still writes its 
   CHECK(Json::parse(content(folder / "out/summary.json"))["status"] != "converged");
   CHECK(content(folder / "out/history.csv").find("nan") == std::string::npos);
 }
+
+TEST_CASE("sem3d: frames as CAD files run as scenes, have info, are exported, and give the same parts back") {
+  const Folder folder("program_cad");
+  const std::string quick_cad = " --no-frames --set analysis.duration=0.02 output.error_estimate=false output.frame_rate=50";
+  const Outcome written = call<3>(folder, "run cube --cad step --out cube" + quick_cad);
+  if (written.err.find("no OpenCASCADE") != std::string::npos) {
+    CHECK(written.code == 2);
+    return;
+  }
+  CHECK(written.code == 0);
+  const std::string file = "cube/frames/frame_00001.step";
+  REQUIRE(fs::exists(folder / file));
+  CHECK(!fs::exists(folder / "cube/frames/frame_00002.step"));
+  for (const auto& entry : fs::directory_iterator(folder / "cube/frames"))
+    CHECK(entry.path().string().find(".part") == std::string::npos);
+  const Outcome info = call<3>(folder, "info " + file + " --json --material jelly");
+  CHECK(info.code == 0);
+  const Json json = Json::parse(info.out);
+  const Json cube = Json::parse(call<3>(folder, "info cube --json").out);
+  CHECK(json["parts"] == cube["parts"]);
+  CHECK(json["shells"][0]["closed"] == true);
+  CHECK(json["boundary_area_m2"] == doctest::Approx(double(cube["boundary_area_m2"])).epsilon(0.1));
+  CHECK(json["part_list"].size() == json["parts"]);
+  CHECK(json["part_list"][0]["trim_loops"] == 0);
+  CHECK(json["longest_gap_m"] < 0.01);  // parts of a deformed state need not meet exactly
+  CHECK(json["settings"]["solids"][0]["material"]["youngs_modulus"] == 5e3);
+  for (size_t i = 0; i < json["parts"]; ++i)
+    CHECK(json["settings"]["solids"][0]["parts"][i]["name"] == cube["settings"]["solids"][0]["parts"][i]["name"]);
+  // The scene that export prints runs to the same history as the file does.
+  const Outcome exported = call<3>(folder, "export " + file + " --pin left");
+  CHECK(exported.code == 0);
+  sem::test::write(folder / "mine.json", exported.out);
+  const Outcome bare = call<3>(folder, "run " + file + " --pin left" + quick_cad);
+  CHECK(bare.out.find("--pin left") != std::string::npos);
+  CHECK(bare.code == 0);
+  CHECK(call<3>(folder, "run mine.json" + quick_cad).code == 0);
+  CHECK(content(folder / "out/mine/history.csv") == content(folder / "out/frame_00001/history.csv"));
+
+  check_rejected<3>(folder, "run none.step", {"none.step", "no readable file"});
+  check_rejected<3>(folder, "run cube --pin top", {"--pin", "the scene 'cube'", "only with a CAD file"});
+  check_rejected<3>(folder, "info mine.json --material steel", {"--material", "'mine.json'"});
+  check_rejected<3>(folder, "export cube --scale 2", {"--scale", "'cube'"});
+  check_rejected<3>(folder, "run " + file + " --pin floor", {"--pin", "'floor'", "bottom"});
+  check_rejected<3>(folder, "run " + file + " --material cheese", {"--material", "'cheese'", "jelly"});
+  check_rejected<3>(folder, "run " + file + " --scale 0", {"--scale", "found 0"});
+  check_rejected<3>(folder, "run " + file + " --scale two", {"--scale", "two"});
+  check_rejected<3>(folder, "run cube --cad obj", {"--cad", "obj"});
+  check_rejected<2>(folder, "run square --cad step", {"--cad"});
+  check_rejected<2>(folder, "run none.step", {"SCENE", "'none.step'"});
+}

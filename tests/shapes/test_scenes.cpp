@@ -41,7 +41,7 @@ const BuiltinScene& builtin(const std::string& name) {
 TEST_CASE_TEMPLATE("built-in scenes: all named and described, the first one is for a first look", T,
                    D2, D3) {
   constexpr int Dim = T::value;
-  REQUIRE(builtin_scenes<Dim>().size() == (Dim == 2 ? 12 : 8));
+  REQUIRE(builtin_scenes<Dim>().size() == (Dim == 2 ? 12 : 10));
   CHECK(builtin_scenes<Dim>()[0].name == (Dim == 2 ? "blob" : "cube"));
   std::set<std::string> names;
   for (const auto& builtin : builtin_scenes<Dim>()) {
@@ -68,7 +68,7 @@ TEST_CASE_TEMPLATE("built-in scenes: each makes a model that covers its inside",
   constexpr int Dim = T::value;
   for (const auto& builtin : builtin_scenes<Dim>()) {
     CAPTURE(builtin.name);
-    if (builtin.name == "tyre" || builtin.name == "mug") continue;  // their preparation takes seconds
+    if (builtin.name == "tyre" || builtin.name.starts_with("mug")) continue;  // their preparation takes seconds
     const auto model = build_model(read<Dim>(builtin), builtin.name);
     const auto& d = model->discretization;
     CHECK(d.weights.uncovered.empty());

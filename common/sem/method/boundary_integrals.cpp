@@ -14,38 +14,44 @@ constexpr int n_gauss = 32;
 template <int Dim>
 using FluxVisitor = std::function<void(const Vec<Dim>& X, double flux)>;
 
-// Visits the Gauss points of a box of parameters with sign * flux of the first unit vector.
-template <int Dim>
-void visit_box(const Nurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>& lower,
-               const Param<Dim - 1>& upper, int sign, const FluxVisitor<Dim>& visit) {
+// Calls visit(point, area normal times weight) at the Gauss points of a box of parameters.
+template <int Dim, class Visit>
+void visit_normals(const Nurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>& lower,
+                   const Param<Dim - 1>& upper, const Visit& visit) {
   static const LineRule rule = gauss_legendre(n_gauss);
   int n = 1;
   for (int a = 0; a < Dim - 1; ++a) n *= n_gauss;
   for (int k = 0; k < n; ++k) {
     Param<Dim - 1> u;
-    double weight = sign;
+    double weight = 1;
     for (int a = 0, rest = k; a < Dim - 1; ++a, rest /= n_gauss) {
       const double half = (upper[a] - lower[a]) / 2;
       u[a] = lower[a] + half * (1 + rule.node[rest % n_gauss]);
       weight *= half * rule.weight[rest % n_gauss];
     }
     const auto at = derivatives(shape, u, 1);
-    visit(at.point, weight * DimTraits<Dim>::area_normal(at.first)[0]);
+    visit(at.point, Vec<Dim>(weight * DimTraits<Dim>::area_normal(at.first)));
   }
 }
 
 // The same for a part as it is trimmed, or all of it.
-template <int Dim>
-void visit_part(const PreparedNurbs<Dim - 1, Dim>& part, int sign, const FluxVisitor<Dim>& visit) {
+template <int Dim, class Visit>
+void visit_normals(const PreparedNurbs<Dim - 1, Dim>& part, const Visit& visit) {
   if (!part.region) {
-    for (const auto& piece : part.pieces) visit_box<Dim>(part.nurbs, piece.lower, piece.upper, sign, visit);
+    for (const auto& piece : part.pieces) visit_normals<Dim>(part.nurbs, piece.lower, piece.upper, visit);
     return;
   }
   const auto rule = part.region->rule(n_gauss);
   for (size_t k = 0; k < rule.u.size(); ++k) {
     const auto at = derivatives(part.nurbs, rule.u[k], 1);
-    visit(at.point, sign * rule.weight[k] * DimTraits<Dim>::area_normal(at.first)[0]);
+    visit(at.point, Vec<Dim>(rule.weight[k] * DimTraits<Dim>::area_normal(at.first)));
   }
+}
+
+// sign * flux of the first unit vector, for those visits.
+template <int Dim>
+auto flux_of(int sign, const FluxVisitor<Dim>& visit) {
+  return [sign, &visit](const Vec<Dim>& X, const Vec<Dim>& normal) { visit(X, sign * normal[0]); };
 }
 
 // +1 / -1: the body is behind / before the normal at u; 0: on both sides or on neither.
@@ -84,14 +90,14 @@ bool visit_visible(const Boundary<2>& boundary, const Loops<2>& loops,
       if (k > 0 && here != previous_side) {
         const double end = change(boundary, loops, shape, previous, u);
         if (previous_side != 0)
-          visit_box<2>(shape.nurbs, Param<1>(begin), Param<1>(end), previous_side, visit);
+          visit_normals<2>(shape.nurbs, Param<1>(begin), Param<1>(end), flux_of<2>(previous_side, visit));
         begin = end;
       }
       previous = u;
       previous_side = here;
     }
     if (previous_side != 0)
-      visit_box<2>(shape.nurbs, Param<1>(begin), piece.upper, previous_side, visit);
+      visit_normals<2>(shape.nurbs, Param<1>(begin), piece.upper, flux_of<2>(previous_side, visit));
   }
   return true;
 }
@@ -152,7 +158,7 @@ bool visit_boundary_flux(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
       available &= visit_visible(boundary, loops, shape, visit);
     } else {
       if (sign == 0) available = false;
-      visit_part<Dim>(shape, sign, visit);
+      visit_normals<Dim>(shape, flux_of<Dim>(sign, visit));
     }
   };
   for (int i = 0; i < boundary.n_parts(); ++i)
@@ -161,6 +167,16 @@ bool visit_boundary_flux(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
     if (loops.cap_length[c] > boundary.tolerance())
       add(loops.caps[c], crowding.loop_of_cap[c], loops.cap_orientation[c]);
   return available;
+}
+
+template <int Dim>
+std::vector<double> part_measures(const Boundary<Dim>& boundary) {
+  std::vector<double> measures;
+  for (const auto& part : boundary.parts) {
+    double& measure = measures.emplace_back(0);
+    visit_normals<Dim>(part, [&](const Vec<Dim>&, const Vec<Dim>& normal) { measure += normal.norm(); });
+  }
+  return measures;
 }
 
 template <int Dim>
@@ -226,6 +242,8 @@ template std::optional<Eigen::VectorXd> boundary_moments_to_degree<2>(const Boun
 template std::optional<Eigen::VectorXd> boundary_moments_to_degree<3>(const Boundary<3>&,
                                                                       const Loops<3>&, int,
                                                                       const Vec<3>&, double);
+template std::vector<double> part_measures<2>(const Boundary<2>&);
+template std::vector<double> part_measures<3>(const Boundary<3>&);
 template Moments<2> boundary_moments<2>(const Boundary<2>&, const Loops<2>&, const Vec<2>&);
 template Moments<3> boundary_moments<3>(const Boundary<3>&, const Loops<3>&, const Vec<3>&);
 template Moments<2> quadrature_moments<2>(const Points<2>&, const Eigen::VectorXd&, const Vec<2>&);

@@ -41,6 +41,10 @@ std::optional<Eigen::VectorXd> boundary_moments_to_degree(const Boundary<Dim>& b
                                                           const Loops<Dim>& loops, int degree,
                                                           const Vec<Dim>& center, double size);
 
+/// Length (m) or area (m^2, of what trims leave) of every part, by Gauss' rule of 32 points on every piece.
+template <int Dim>
+std::vector<double> part_measures(const Boundary<Dim>& boundary);
+
 /// Moments of a quadrature rule, for comparison.
 template <int Dim>
 Moments<Dim> quadrature_moments(const Points<Dim>& position, const Eigen::VectorXd& weight,

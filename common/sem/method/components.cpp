@@ -74,6 +74,7 @@ std::vector<Component<Dim>> split_into_components(const Boundary<Dim>& boundary,
     box.upper = box.upper.cwiseMin(boundary.box.upper);
     component.loops.longest_gap = loops.longest_gap;
     component.loops.n_gaps = loops.n_gaps;
+    component.loops.n_free_borders = loops.n_free_borders;
   }
   return components;
 }

@@ -12,7 +12,8 @@ std::vector<double> critical_values<3>(const Boundary<3>& boundary, const Loops<
     if (shape.region) {
       all.push_back(shape.region->box().lower[transverse_axis]);
       all.push_back(shape.region->box().upper[transverse_axis]);
-      for (const Vec<3>& corner : shape.region->corners()) all.push_back(corner[transverse_axis]);
+      for (const auto& border : shape.region->borders())
+        for (const Vec<3>& end : {border.front(), border.back()}) all.push_back(end[transverse_axis]);
       return;
     }
     for (const auto& piece : shape.pieces) {

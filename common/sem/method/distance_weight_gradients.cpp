@@ -33,12 +33,13 @@ FootMotion<Dim> motion_along(const BorderPoint<Dim - 1>& border, const Derivativ
   return motion;
 }
 
+// u: the foot, or if `moved` a regular_parameter beside it; r = X - X*.
 template <int Dim>
 FootMotion<Dim> foot_motion(const PreparedNurbs<Dim - 1, Dim>& part, const Param<Dim - 1>& u,
-                            const Derivatives<Dim - 1, Dim>& at, const Vec<Dim>& X) {
-  const Vec<Dim> r = X - at.point;
+                            const Derivatives<Dim - 1, Dim>& at, const Vec<Dim>& r, bool moved) {
+  const double right_angle = moved ? 1e-4 : 1e-6;
   const auto is_free = [&](int a) {
-    return std::abs(r.dot(at.first.col(a))) <= 1e-6 * r.norm() * at.first.col(a).norm();
+    return std::abs(r.dot(at.first.col(a))) <= right_angle * r.norm() * at.first.col(a).norm();
   };
   if (part.region)
     for (int a = 0; a < Dim - 1; ++a)
@@ -93,9 +94,10 @@ Vec<Dim> sided_gradient(const PreparedNurbs<Dim - 1, Dim>& part, const Distances
   const Slope step = side_step(distances.side[pair], theta.side_ramp);
   const Vec<Dim> gradient = profile.derivative * step.value / theta.cutoff * n;
   if (step.derivative == 0) return gradient;
-  const auto at = derivatives(shape, distances.foot_u[pair]);
-  const Vec<Dim> N = unit_normal(shape, distances.foot_u[pair]);
-  const FootMotion<Dim> foot = foot_motion<Dim>(part, distances.foot_u[pair], at, X);
+  const Param<Dim - 1> u = regular_parameter<Dim>(shape, distances.foot_u[pair]);
+  const auto at = derivatives(shape, u);
+  const Vec<Dim> N = unit_normal(shape, u);
+  const FootMotion<Dim> foot = foot_motion<Dim>(part, u, at, d * n, u != distances.foot_u[pair]);
   const Mat<Dim> dn = direction_derivative<Dim>(n, d, foot.position);
   const Mat<Dim> dN = normal_derivative<Dim>(at, N) * foot.parameter;
   const Vec<Dim> from_n = dn.transpose() * N, from_N = dN.transpose() * n;
@@ -111,8 +113,9 @@ Vec<Dim> theta_gradient(const Boundary<Dim>& boundary, const Distances<Dim>& dis
   const Vec<Dim> n = (X - distances.foot[pair]) / d;
   if (!(reach < cutoff)) return -n / cutoff;
   const auto& part = boundary.parts[distances.part[pair]];
-  const auto at = derivatives(part.nurbs, distances.foot_u[pair]);
-  const Mat<Dim> C = foot_motion<Dim>(part, distances.foot_u[pair], at, X).position;
+  const Param<Dim - 1> u = regular_parameter<Dim>(part.nurbs, distances.foot_u[pair]);
+  const auto at = derivatives(part.nurbs, u);
+  const Mat<Dim> C = foot_motion<Dim>(part, u, at, d * n, u != distances.foot_u[pair]).position;
   const Mat<Dim> dn = direction_derivative<Dim>(n, d, C);
   const auto hit = derivatives(boundary.parts[distances.hit_part[pair]].nurbs, distances.hit_u[pair]);
   const Vec<Dim> N = DimTraits<Dim>::area_normal(hit.first);

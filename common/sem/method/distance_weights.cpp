@@ -35,7 +35,7 @@ class Meter {
     if (variant == DistanceWeight::distance_only || variant == DistanceWeight::sided) return;
     for (int l = 0; l < int(loops.loops.size()); ++l) {
       const auto& loop = loops.loops[l];
-      bool closed = loop.parts.size() == 1;
+      bool closed = loop.parts.size() == 1 && loop.closed();
       for (const int cap : loop.caps) closed &= loops.cap_length[cap] <= boundary.tolerance();
       if (closed) closed_loop_[loop.parts[0]] = l;
     }

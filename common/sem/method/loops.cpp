@@ -8,11 +8,17 @@
 namespace sem {
 namespace {
 
-// A direction that no edge is likely to share.
+// Directions that no edge is likely to share, spread evenly over all (3D: turned by the golden angle).
 template <int Dim>
-Vec<Dim> generic_direction() {
+Vec<Dim> generic_direction(int k, int n) {
   Vec<Dim> direction;
   for (int a = 0; a < Dim; ++a) direction[a] = 1 / std::sqrt(1.7 + 3.1 * a);
+  if (k > 0) {
+    const double height = 1 - 2.0 * k / n, angle = 2.399963229728653 * k;
+    direction[0] = std::sqrt(1 - height * height) * std::cos(angle);
+    direction[1] = std::sqrt(1 - height * height) * std::sin(angle);
+    direction[Dim - 1] = height;
+  }
   return direction.normalized();
 }
 
@@ -31,11 +37,16 @@ int count_crossings(const PreparedNurbs<Dim - 1, Dim>& shape, const Line<Dim>& l
 template <int Dim>
 bool inside_loop(const Boundary<Dim>& boundary, const Loops<Dim>& loops, int l, const Vec<Dim>& X) {
   const Loop<Dim>& loop = loops.loops[l];
-  const Line<Dim> line{X, generic_direction<Dim>()};
-  int n = 0;
-  for (const int part : loop.parts) n += count_crossings<Dim>(boundary.parts[part], line);
-  for (const int cap : loop.caps) n += count_crossings<Dim>(loops.caps[cap], line);
-  return n % 2 == 1;
+  const int n_lines = loop.closed() && loop.gap == 0 ? 1 : 9;
+  int n_inside = 0;
+  for (int k = 0; k < n_lines; ++k) {
+    const Line<Dim> line{X, generic_direction<Dim>(k, n_lines)};
+    int n = 0;
+    for (const int part : loop.parts) n += count_crossings<Dim>(boundary.parts[part], line);
+    for (const int cap : loop.caps) n += count_crossings<Dim>(loops.caps[cap], line);
+    n_inside += n % 2;
+  }
+  return 2 * n_inside > n_lines;
 }
 
 namespace {

@@ -31,10 +31,27 @@ inline Slope side_step(double side, double ramp) {
   return {t * t * (3 - 2 * t), 6 * t * (1 - t) / ramp};
 }
 
-/// Unit normal of a part, right of its direction of travel (2D) or along X_u x X_v (3D).
+/// u, or where the part has no normal, at a pole or an edge that is collapsed to a point, a parameter 1e-6
+/// of the way to the domain's middle: what it has there is its limit.
+template <int Dim>
+Param<Dim - 1> regular_parameter(const Nurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>& u) {
+  double area = DimTraits<Dim>::area_normal(derivatives(shape, u, 1).first).norm();
+  const auto& p = shape.control_points;
+  const double size = (p.rowwise().maxCoeff() - p.rowwise().minCoeff()).norm();
+  Param<Dim - 1> middle;
+  for (int axis = 0; axis < Dim - 1; ++axis) {
+    const Interval range = domain(shape, axis);
+    middle[axis] = (range.lower + range.upper) / 2;
+    area *= (range.upper - range.lower) / size;
+  }
+  return area > 1e-9 ? u : Param<Dim - 1>(u + 1e-6 * (middle - u));
+}
+
+/// Unit normal of a part, right of its direction of travel (2D) or along X_u x X_v (3D); its limit where the part
+/// is collapsed.
 template <int Dim>
 Vec<Dim> unit_normal(const Nurbs<Dim - 1, Dim>& shape, const Param<Dim - 1>& u) {
-  const Vec<Dim> normal = DimTraits<Dim>::area_normal(derivatives(shape, u, 1).first);
+  const Vec<Dim> normal = DimTraits<Dim>::area_normal(derivatives(shape, regular_parameter<Dim>(shape, u), 1).first);
   return normal / std::max(normal.norm(), std::numeric_limits<double>::min());
 }
 

@@ -72,9 +72,7 @@ class TrimRegion : public Region<2, 3> {
       for (const auto& piece : prepare(with_halved_spans(curve->nurbs, 3)).pieces)
         cells_.push_back(piece.box);
     border_ = detail::BorderCurves(surface_, curves_);
-    for (const auto& curve : plane_.parts)
-      for (const double t : {domain(curve.nurbs, 0).lower, domain(curve.nurbs, 0).upper})
-        corners_.push_back(point(surface_, Param<2>(point(curve, Param<1>(t)))));
+    for (const auto& curve : plane_.parts) borders_.push_back(images(curve));
     find_box();
     find_strips();
   }
@@ -117,7 +115,7 @@ class TrimRegion : public Region<2, 3> {
   }
 
   const Box<3>& box() const override { return box_; }
-  const std::vector<Vec<3>>& corners() const override { return corners_; }
+  const std::vector<std::vector<Vec<3>>>& borders() const override { return borders_; }
 
   ParameterRule<2> rule(int n) const override {
     ParameterRule<2> result;
@@ -138,6 +136,17 @@ class TrimRegion : public Region<2, 3> {
   }
 
  private:
+  std::vector<Vec<3>> images(const PreparedNurbs<1, 2>& curve) const {
+    constexpr int n = 9;
+    const Interval range = domain(curve.nurbs, 0);
+    std::vector<Vec<3>> result;
+    for (int k = 0; k < n; ++k) {
+      const double t = k == n - 1 ? range.upper : range.lower + (range.upper - range.lower) * k / (n - 1);
+      result.push_back(point(surface_, Param<2>(point(curve, Param<1>(t)))));
+    }
+    return result;
+  }
+
   // Gauss points between the surface's knots.
   void append_interval(const RayInterval& interval, double v, double weight, const LineRule& along,
                        ParameterRule<2>& out) const {
@@ -264,7 +273,7 @@ class TrimRegion : public Region<2, 3> {
   std::vector<const PreparedNurbs<1, 2>*> curves_;  // of the plane and the caps
   std::vector<Box<2>> cells_;                       // of stretches of the curves
   detail::BorderCurves border_;
-  std::vector<Vec<3>> corners_;
+  std::vector<std::vector<Vec<3>>> borders_;
   Box<3> box_;
   std::vector<Strip> strips_;
 };

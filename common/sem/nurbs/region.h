@@ -48,8 +48,8 @@ class Region {
   virtual BorderPoint<ParamDim> border_near(const Param<ParamDim>& u) const = 0;
   /// Holds the trimmed part: tight where it is flat, else by some percent of its size.
   virtual const Box<Dim>& box() const = 0;
-  /// Corners of the border in space: the ends of its curves.
-  virtual const std::vector<Vec<Dim>>& corners() const = 0;
+  /// Points in space along every curve of the border, equally spaced in its parameter, ends included.
+  virtual const std::vector<std::vector<Vec<Dim>>>& borders() const = 0;
   /// Rule over the region with n points (n >= 1) in every direction of every piece on which the
   /// part is smooth; exact on straight borders for polynomials as Gauss' rule, converging fast on
   /// curved ones.

@@ -18,14 +18,26 @@ constexpr const char* commands_text = R"(
   PROGRAM export NAME > mine.json                       a built-in scene, to start your own from
   PROGRAM schema                                        every key of a scene file, with units and defaults
 
-SCENE is a JSON file or the name of a built-in scene; try: PROGRAM run )";
+SCENE is a JSON fileSOLIDS or the name of a built-in scene; try: PROGRAM run )";
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (size_t at; (at = text.find(from)) != std::string::npos;) text.replace(at, from.size(), to);
+}
+
+// ".igs, .iges, .stp, .step"
+std::string dotted(const std::vector<std::string>& endings) {
+  std::string text;
+  for (const auto& ending : endings) text += (text.empty() ? "." : ", .") + ending;
+  return text;
+}
 
 std::string overview(const std::string& program, const std::string& about,
-                     const std::string& first_scene) {
-  const std::string placeholder = "PROGRAM";
+                     const std::string& first_scene,
+                     const std::vector<std::string>& solid_endings) {
   std::string text = commands_text;
-  for (size_t at; (at = text.find(placeholder)) != std::string::npos;)
-    text.replace(at, placeholder.size(), program);
+  replace_all(text, "PROGRAM", program);
+  replace_all(text, "SOLIDS",
+              solid_endings.empty() ? "" : ", a CAD file (" + dotted(solid_endings) + ")");
   return program + ": " + about + "\n" + text + first_scene + "\n";
 }
 
@@ -39,10 +51,12 @@ InputError unknown_name(const std::string& field, const std::string& word, const
 }
 
 CommandLine read_command_line(const std::string& program, const std::string& about,
-                              const std::string& first_scene, int argc, char** argv) {
+                              const std::string& first_scene,
+                              const std::vector<std::string>& solid_endings, int argc,
+                              char** argv) {
   CommandLine line;
   if (argc == 1) {
-    std::cout << overview(program, about, first_scene);
+    std::cout << overview(program, about, first_scene, solid_endings);
     return line;
   }
   CLI::App app{program + ": " + about, program};
@@ -57,20 +71,46 @@ CommandLine read_command_line(const std::string& program, const std::string& abo
         ->allow_extra_args(false);
     command->add_option("OVERRIDES", more_overrides, "more of them, with or without another --set");
   };
+  std::vector<CLI::Option*> bare_options;
+  const auto add_bare_options = [&](CLI::App* command) {
+    if (solid_endings.empty()) return;
+    bare_options.push_back(
+        command->add_option("--pin", line.bare.pin,
+                            "of a CAD file: what is held: bottom (default), top, left, right, "
+                            "front, back, none, or x0,y0,z0,x1,y1,z1 in m"));
+    bare_options.push_back(command->add_option("--material", line.bare.material,
+                                               "of a CAD file: rubber (default), jelly or steel"));
+    bare_options.push_back(
+        command->add_option("--scale", line.bare.scale, "of a CAD file: of its lengths in m"));
+  };
+  const std::string scene_help =
+      solid_endings.empty() ? "JSON file or built-in name" : "JSON file, CAD file or built-in name";
   auto* run_command = app.add_subcommand("run", "simulate a scene");
-  run_command->add_option("SCENE", line.scene, "JSON file or built-in name")->required();
+  run_command->add_option("SCENE", line.scene, scene_help)->required();
   run_command->add_option("--out", line.folder, "output folder; default out/SCENE");
   run_command->add_flag("--resume", line.resume, "go on from the folder's checkpoint");
   run_command->add_flag("--no-frames", no_frames, "numbers only");
+  if (!solid_endings.empty())
+    run_command
+        ->add_option("--cad", line.solid_frames,
+                     "also write every frame as a CAD file that ends so: step or igs")
+        ->check(CLI::IsMember(solid_endings));
+  add_bare_options(run_command);
   add_overrides(run_command);
   auto* info_command =
       app.add_subcommand("info", "sizes, accuracy and settings of a scene, without running it");
-  info_command->add_option("SCENE", line.scene, "JSON file or built-in name")->required();
+  info_command->add_option("SCENE", line.scene, scene_help)->required();
   info_command->add_flag("--json", line.json, "everything, parts included");
+  add_bare_options(info_command);
   add_overrides(info_command);
   auto* scenes_command = app.add_subcommand("scenes", "list the built-in scenes");
   auto* export_command = app.add_subcommand("export", "print a built-in scene");
-  export_command->add_option("NAME", line.scene, "of a built-in scene")->required();
+  export_command
+      ->add_option("NAME", line.scene,
+                   solid_endings.empty() ? "of a built-in scene"
+                                         : "of a built-in scene, or a CAD file to make a scene of")
+      ->required();
+  add_bare_options(export_command);
   app.add_subcommand("schema", "print every key of a scene file");
   const std::string first = argv[1];
   std::vector<std::string> commands;
@@ -87,6 +127,8 @@ CommandLine read_command_line(const std::string& program, const std::string& abo
   }
   line.overrides.insert(line.overrides.end(), more_overrides.begin(), more_overrides.end());
   line.frames = !no_frames;
+  line.has_bare = std::any_of(bare_options.begin(), bare_options.end(),
+                              [](const auto* option) { return option->count() > 0; });
   line.command = *run_command      ? Command::run
                  : *info_command   ? Command::info
                  : *scenes_command ? Command::scenes

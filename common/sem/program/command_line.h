@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sem/base/error.h"
+#include "sem/scene/bare_scene.h"
 
 namespace sem {
 
@@ -17,12 +18,16 @@ struct CommandLine {
   std::string folder;  ///< of the outputs; empty: the default
   std::vector<std::string> overrides;
   bool json = false, resume = false, frames = true;
+  BareScene bare;            ///< of a scene that is a file of solids
+  bool has_bare = false;     ///< any of it is given
+  std::string solid_frames;  ///< ending of the files of solids to write frames to; empty: none
 };
 
 /// Reads the arguments; prints the overview, help or version if they ask for it. Throws InputError
-/// for an unknown command.
+/// for an unknown command. `solid_endings`: of the files of solids that the program knows, if any.
 CommandLine read_command_line(const std::string& program, const std::string& about,
-                              const std::string& first_scene, int argc, char** argv);
+                              const std::string& first_scene,
+                              const std::vector<std::string>& solid_endings, int argc, char** argv);
 
 /// "'word', what", with the closest of the names proposed.
 InputError unknown_name(const std::string& field, const std::string& word, const std::string& what,

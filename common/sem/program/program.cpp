@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <sstream>
 
 #include "sem/base/error.h"
 #include "sem/draw/frame_writer.h"
@@ -17,16 +18,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string frame_name(int frame) {
+std::string frame_name(int frame, const std::string& ending) {
   char name[32];
-  std::snprintf(name, sizeof name, "frame_%05d.png", frame);
-  return name;
+  std::snprintf(name, sizeof name, "frame_%05d.", frame);
+  return name + ending;
 }
 
 // Frames of an earlier, longer run into the same folder.
-void remove_stale_frames(const fs::path& folder, int n_frames) {
+void remove_stale_frames(const fs::path& folder, int n_frames, const std::string& ending) {
   std::error_code error;
-  for (int frame = n_frames; fs::remove(folder / frame_name(frame), error); ++frame) {
+  for (int frame = n_frames; fs::remove(folder / frame_name(frame, ending), error); ++frame) {
   }
 }
 
@@ -69,11 +70,38 @@ class Commands {
                        other + ("a name that '" + program_.name + " scenes' lists"));
   }
 
+  bool is_solid_file() const {
+    return !program_.solid_files.endings.empty() && program_.solid_files.is_one(line_.scene);
+  }
+
+  // The scene made of a file of solids; `path`: what the scene calls the file.
+  std::string solid_file_text(const std::string& path) const {
+    return program_.solid_files.scene_text(line_.scene, path, line_.bare);
+  }
+
   SceneText find_scene() const {
     std::error_code error;
+    if (is_solid_file())
+      return {solid_file_text(fs::path(line_.scene).filename().string()), line_.scene};
+    refuse_bare_options();
     if (fs::is_regular_file(line_.scene, error)) return {read_file(line_.scene), line_.scene};
     return {builtin_text("SCENE", "neither a file nor a built-in scene", "a JSON file or "),
             line_.scene};
+  }
+
+  void refuse_bare_options() const {
+    if (line_.has_bare)
+      throw InputError("", "--pin, --material, --scale", "the scene '" + line_.scene + "'",
+                       "these only with a CAD file; else --set");
+  }
+
+  // What the first comments of a scene made of a file of solids say.
+  std::string choices(const SceneText& source) const {
+    std::istringstream lines(source.text);
+    std::string said;
+    for (std::string line; is_solid_file() && std::getline(lines, line) && line.starts_with("// ");)
+      said += line.substr(3) + "\n";
+    return said;
   }
 
   Scene<Dim> load(const SceneText& source) const {
@@ -85,20 +113,24 @@ class Commands {
   int run() const {
     const SceneText source = find_scene();
     const Scene<Dim> scene = load(source);
+    std::cout << choices(source) << std::flush;
     const std::string folder =
         line_.folder.empty() ? "out/" + fs::path(source.file).stem().string() : line_.folder;
     const fs::path frames = fs::path(folder) / "frames";
-    const bool draw = line_.frames && program_.painter;
+    const bool draw = line_.frames && program_.painter, solids = !line_.solid_frames.empty();
     Painter<Dim> paint;
     FrameWriter writer;
     FrameCallback<Dim> on_frame;
-    if (draw)
+    if (draw || solids)
       on_frame = [&](const Model<Dim>& model, const State& state, int frame) {
-        if (!paint) {
-          make_folder(frames.string());
-          paint = program_.painter(scene);
+        if (frame == 0 || !fs::exists(frames)) make_folder(frames.string());
+        if (draw) {
+          if (!paint) paint = program_.painter(scene);
+          writer.write((frames / frame_name(frame, "png")).string(), paint(model, state));
         }
-        writer.write((frames / frame_name(frame)).string(), paint(model, state));
+        if (solids)
+          program_.solid_files.write((frames / frame_name(frame, line_.solid_frames)).string(),
+                                     scene, control_points(model.discretization.unknowns, state.z));
       };
     RunResult result;
     {
@@ -106,10 +138,12 @@ class Commands {
       result = run_scene(scene, {source.file, folder, line_.resume, std::ref(progress)}, on_frame);
       writer.finish();
     }
-    if (draw) remove_stale_frames(frames, result.n_frames);
+    if (draw) remove_stale_frames(frames, result.n_frames, "png");
+    if (solids) remove_stale_frames(frames, result.n_frames, line_.solid_frames);
     std::cout << scene.name << ": " << result.message << "\n"
               << "wrote " << folder << "/: history.csv, summary.json, final_state.json";
-    if (draw && result.n_frames > 0) std::cout << ", frames/ (" << result.n_frames << " of them)";
+    if ((draw || solids) && result.n_frames > 0)
+      std::cout << ", frames/ (" << result.n_frames << " of them)";
     if (!program_.painter) std::cout << " (no frames: " << program_.name << " does not draw)";
     std::cout << "\n" << result.report;
     return result.ok ? 0 : 1;
@@ -118,6 +152,7 @@ class Commands {
   int info() const {
     const SceneText source = find_scene();
     const Scene<Dim> scene = load(source);
+    if (!line_.json) std::cout << choices(source);
     std::cout << model_info(scene, *build_model(scene, source.file), line_.json, source.file);
     if (!line_.json && !program_.painter)
       std::cout << "frames: none, " << program_.name << " does not draw\n";
@@ -131,6 +166,11 @@ class Commands {
   }
 
   int export_scene() const {
+    if (is_solid_file()) {
+      std::cout << solid_file_text(line_.scene);
+      return 0;
+    }
+    refuse_bare_options();
     std::cout << builtin_text("NAME", "no built-in scene", "");
     return 0;
   }
@@ -146,7 +186,8 @@ int run_program(const Program<Dim>& program, int argc, char** argv) {
   int code = 2;
   try {
     const CommandLine line =
-        read_command_line(program.name, program.about, program.scenes.front().name, argc, argv);
+        read_command_line(program.name, program.about, program.scenes.front().name,
+                          program.solid_files.endings, argc, argv);
     return Commands<Dim>(program, line).call();
   } catch (const InputError& error) {
     std::cerr << program.name << ": " << error.what() << "\n";

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "sem/base/stopwatch.h"
 #include "sem/scene/accuracy.h"
@@ -101,6 +102,27 @@ double megabytes(const Model<Dim>& model) {
 }
 
 template <int Dim>
+const char* measure_name() {
+  return DimTraits<Dim>::param_dim == 1 ? "length_m" : "area_m2";
+}
+
+// Every part: its length or area, trims, and on which side the material is (0: not decided).
+template <int Dim>
+Json part_list(const Scene<Dim>& scene, const Discretization<Dim>& d, const std::vector<double>& measures) {
+  Json list;
+  for (const auto& solid : scene.solids)
+    for (const auto& part : solid.parts) {
+      const size_t i = list.size();
+      list.push_back({{"solid", solid.name},
+                      {"name", part.name},
+                      {measure_name<Dim>(), measures[i]},
+                      {"trim_loops", part.trims.size()},
+                      {"orientation", d.loops.orientation[i]}});
+    }
+  return list;
+}
+
+template <int Dim>
 Json info_json(const Scene<Dim>& scene, const Model<Dim>& model, const std::string& file) {
   const auto& d = model.discretization;
   Json json;
@@ -110,7 +132,18 @@ Json info_json(const Scene<Dim>& scene, const Model<Dim>& model, const std::stri
   json["loops"] = d.loops.loops.size();
   json["gaps"] = d.loops.n_gaps;
   json["longest_gap_m"] = d.loops.longest_gap;
+  for (const auto& loop : d.loops.loops)
+    json["shells"].push_back({{"solid", scene.solids[loop.solid].name},
+                              {"parts", loop.parts.size()},
+                              {"depth", loop.depth},
+                              {"closed", loop.closed()},
+                              {"free_edges", loop.n_free_borders},
+                              {"widest_gap_m", loop.gap}});
   json["parts_of_undecided_orientation"] = std::count(d.loops.orientation.begin(), d.loops.orientation.end(), 0);
+  const auto measures = part_measures(d.boundary);
+  json[std::string("boundary_") + measure_name<Dim>()] = std::accumulate(measures.begin(), measures.end(), 0.0);
+  json["free_edges"] = d.loops.n_free_borders;
+  json["part_list"] = part_list(scene, d, measures);
   json["control_points"] = d.boundary.n_controls();
   json["unknowns"] = model.n_unknowns();
   json["pinned"] = model.system.size() - model.n_unknowns();
@@ -163,6 +196,7 @@ std::string model_info(const Scene<Dim>& scene, const Model<Dim>& model, bool js
   if (json) return json_text(info);
   for (auto& solid : info["settings"]["solids"])  // the parts would hide all the rest
     solid["parts"] = std::to_string(solid["parts"].size()) + " parts (shown by --json)";
+  info["part_list"] = "shown by --json";
   std::string text;
   append_lines(info, 0, text);
   return text;

@@ -70,6 +70,12 @@ void describe_part(Fields& fields, ScenePart<Dim>& part) {
     fields.object("material", "in place of the solid's where this part's distance weight is the largest",
                   [&](Fields& f) { describe_material(f, *part.material); });
   }
+  if (fields.optional("color", part.color.has_value())) {
+    std::vector<double> color(3, 0.0);
+    if (part.color) color.assign(part.color->begin(), part.color->end());
+    fields.numbers("color", color, 3, between(0, 1), "", "red, green, blue, linear; kept for CAD files");
+    if (fields.reading()) part.color = std::array{color[0], color[1], color[2]};
+  }
 }
 
 template <int Dim>

@@ -27,6 +27,7 @@ struct ScenePart {
   Nurbs<Dim - 1, Dim> shape;
   std::optional<Material> material = {};  ///< in place of the solid's, where this part's distance weight (theta) is the largest
   TrimLoops trims = {};  ///< 3D: what the shape is trimmed to (method/trims.h); none: all of it
+  std::optional<std::array<double, 3>> color = {};  ///< red, green, blue in [0, 1], linear; for files that keep it
 };
 
 template <int Dim>
