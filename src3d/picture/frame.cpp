@@ -101,7 +101,9 @@ class SolidPainter::Drawing {
     Nurbs<2, 3> nurbs = b.parts[i].nurbs;
     nurbs.control_points =
         p.middleCols(b.first_control[i], b.first_control[i + 1] - b.first_control[i]);
-    return prepare(nurbs);
+    PreparedNurbs<2, 3> part = prepare(nurbs);
+    part.region = b.parts[i].region;  // of its parameters
+    return part;
   }
 
   // Adds the parts. Returns where the colour scale ends.

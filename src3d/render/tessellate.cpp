@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "src3d/render/trimmed.h"
+
 namespace sem::render {
 namespace {
 
@@ -178,6 +180,7 @@ Vec<3> unit_normal(const Surface& surface, const Param<2>& u) {
 }
 
 Mesh tessellate(const Surface& surface, const Flatness& flatness) {
+  if (surface.region) return tessellate_trimmed(surface, flatness);
   Mesh mesh;
   for (const auto& piece : surface.pieces) {
     const PieceGrid grid = grid_of(surface, piece, flatness);
@@ -215,6 +218,7 @@ std::vector<Chain> isoparametric_lines(const Surface& surface, int between, bool
 }
 
 std::vector<Chain> outline(const Surface& surface, const Flatness& flatness) {
+  if (surface.region) return trimmed_outline(surface);
   return isoparametric_lines(surface, 0, false, flatness);
 }
 
