@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sem/lesson/part_canvas.h"
 #include "src3d/render/renderer.h"
 #include "src3d/render/tessellate.h"
 
@@ -41,15 +42,25 @@ SolidView::SolidView(Lesson& lesson, double turn, double lift)
 
 SolidView::~SolidView() = default;
 
+Vec<3> SolidView::from() const {
+  const double turn = angles_[0] * M_PI / 180, lift = angles_[1] * M_PI / 180;
+  return {std::sin(turn) * std::cos(lift), -std::cos(turn) * std::cos(lift), std::sin(lift)};
+}
+
+void SolidView::draw_frame(Picture& picture, SolidPainter& painter, const Model<3>& model,
+                           const State& state) {
+  PartCanvas part(picture.canvas(), picture.area());
+  painter.look_from(from());
+  painter.draw(part, model, state);
+}
+
 void SolidView::draw(Picture& picture, const render::RenderScene& scene, const SpaceNotes& notes,
                      const std::optional<Box<2>>& rectangle) {
   if (!renderer_) renderer_ = std::make_unique<render::Renderer>();
   const Box<2> place = rectangle.value_or(picture.part({0.01, 0.06}, {0.99, 0.99}));
   const Vec<2> corner = place.lower.array().round();
   const int width = int(place.upper[0] - corner[0]), height = int(place.upper[1] - corner[1]);
-  const double turn = angles_[0] * M_PI / 180, lift = angles_[1] * M_PI / 180;
-  const render::ViewDirection direction{
-      .from = {std::sin(turn) * std::cos(lift), -std::cos(turn) * std::cos(lift), std::sin(lift)}};
+  const render::ViewDirection direction{.from = from()};
   const double margin = 0.04 * std::min(width, height);
   auto camera =
       render::framing(framed(scene), direction,

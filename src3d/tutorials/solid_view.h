@@ -10,7 +10,7 @@
 #include "sem/lesson/lesson.h"
 #include "sem/lesson/plots.h"
 #include "sem/method/boundary.h"
-#include "sem/scene/scene.h"
+#include "src3d/picture/frame.h"
 #include "src3d/render/render_scene.h"
 
 namespace sem::render {
@@ -45,7 +45,13 @@ class SolidView {
   void draw(Picture& picture, const render::RenderScene& scene, const SpaceNotes& notes = {},
             const std::optional<Box<2>>& rectangle = {});
 
+  /// The program's frame of a state, from the camera's direction.
+  void draw_frame(Picture& picture, SolidPainter& painter, const Model<3>& model,
+                  const State& state);
+
  private:
+  Vec<3> from() const;
+
   const Lesson& lesson_;
   Vec<2> angles_;
   std::unique_ptr<render::Renderer> renderer_;  // made when needed
