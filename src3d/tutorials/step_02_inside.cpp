@@ -24,6 +24,7 @@
 #include "sem/method/boundary_integrals.h"
 #include "sem/method/line_rules.h"
 #include "sem/method/quadrature.h"
+#include "sem/nurbs/refine.h"
 #include "src3d/shapes/solids.h"
 #include "src3d/tutorials/solid_view.h"
 
@@ -33,18 +34,6 @@ using namespace sem::tutorial;
 namespace {
 
 using Surfaces = std::vector<Nurbs<2, 3>>;
-
-// The same surface with u running the other way: its normal points to the other side.
-Nurbs<2, 3> flip(Nurbs<2, 3> patch) {
-  const Nurbs<2, 3> old = patch;
-  const int n = n_control(old, 0);
-  for (int k = 0; k < old.weights.size(); ++k) {
-    const int from = k / n * n + (n - 1 - k % n);
-    patch.control_points.col(k) = old.control_points.col(from);
-    patch.weights[k] = old.weights[from];
-  }
-  return patch;  // its knots, 0 and 1, are symmetric
-}
 
 // (a), (b): the stretches inside, from hits that are sorted along the ray.
 std::vector<RayInterval> inside(const std::vector<RayHit>& hits, const Loops<3>& loops) {
@@ -124,7 +113,7 @@ int main(int argc, char** argv) {
         result.push_back(part.shape);
         names.push_back((radius == 1 ? "" : "cavity/") + part.name);
       }
-    for (int i = 0; i < flipped; ++i) result[i] = flip(result[i]);
+    for (int i = 0; i < flipped; ++i) result[i] = reversed(result[i], 0);
     return result;
   };
   const auto color = [&](int i) {
