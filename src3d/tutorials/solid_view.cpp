@@ -69,7 +69,8 @@ void SolidView::draw(Picture& picture, const render::RenderScene& scene, const S
                          {corner, corner + Vec<2>(width, height)});
   camera.center += corner;
   for (const auto& label : notes.labels)
-    picture.label_at(camera.project(label.at), label.text, label.color, label.offset);
+    if (label.side.isZero(0) || label.side.dot(camera.toward(label.at)) > 0)
+      picture.label_at(camera.project(label.at), label.text, label.color, label.offset);
   if (!notes.text) return;
   Points<2> pixels(2, notes.points.cols());
   for (int k = 0; k < pixels.cols(); ++k) pixels.col(k) = camera.project(notes.points.col(k));

@@ -26,7 +26,8 @@ struct SpaceNotes {
     Vec<3> at;
     std::string text;
     Color color = colors::black;
-    Vec<2> offset = {9, -9};  ///< pixels, y down
+    Vec<2> offset = {9, -9};       ///< pixels, y down
+    Vec<3> side = Vec<3>::Zero();  ///< shown only where the camera is on this side; 0: always
   };
   std::vector<Label> labels = {};
   Points<3> points = {};                      ///< 3 by #points
