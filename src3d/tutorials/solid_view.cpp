@@ -130,6 +130,16 @@ void add_line(render::RenderScene& scene, const Vec<3>& a, const Vec<3>& b, cons
   scene.lines.push_back({{{a, b}}, color, width, hidden});
 }
 
+void add_stretches(render::RenderScene& scene, const Rays<3>& rays, const Color& color,
+                   double width) {
+  for (const auto& ray : rays.rays)
+    for (const auto& inside : ray.intervals) {
+      const Vec<3> along = Vec<3>::Unit(rays.axis);
+      add_line(scene, ray.origin + inside.begin * along, ray.origin + inside.end * along, color,
+               width, 0.8);
+    }
+}
+
 Points<3> slice_points(const Vec<3>& corner, const Vec<3>& a, const Vec<3>& b,
                        const std::array<int, 2>& n) {
   Points<3> points(3, n[0] * n[1]);

@@ -9,7 +9,7 @@
 
 #include "sem/lesson/lesson.h"
 #include "sem/lesson/plots.h"
-#include "sem/method/boundary.h"
+#include "sem/method/rays.h"
 #include "src3d/picture/frame.h"
 #include "src3d/render/render_scene.h"
 
@@ -78,6 +78,10 @@ void add_balls(render::RenderScene& scene, const Points<3>& points, double radiu
 /// A straight line.
 void add_line(render::RenderScene& scene, const Vec<3>& a, const Vec<3>& b, const Color& color,
               double width, double hidden = 0.3);
+
+/// The stretches of rays that are inside.
+void add_stretches(render::RenderScene& scene, const Rays<3>& rays, const Color& color,
+                   double width);
 
 /// A flat picture of a function in the plane through `corner` with the sides `a` and `b`: squares
 /// of n by n cells whose middles lie inside, colours as given.

@@ -327,11 +327,12 @@ int main(int argc, char** argv) {
         for (const int k : {0, 1}) {
           const Vec<2> corner = picture.part({0.03 + 0.5 * k, 0.1}, {1, 1}).lower;
           std::vector<int> first;
-          const int n = k == 0 ? 4 : 6;
+          const int n = k == 0 ? disc.boundary.n_parts() : ball.boundary.n_parts();
           for (int i = 0; i <= n; ++i) first.push_back(int(J[k].rows()) * i / n);
           draw_matrix(picture, J[k], first, {corner, corner + Vec<2>::Constant(size)}, "J");
-          picture.label_at(corner + Vec<2>(0, size + 20), k == 0 ? "disc: 12 samples, 12 points"
-                                                                 : "ball: 150 samples, 150 points");
+          picture.label_at(corner + Vec<2>(0, size + 20),
+                           (k == 0 ? "disc: " : "ball: ") + std::to_string(J[k].rows()) +
+                               " samples, " + std::to_string(J[k].cols()) + " points");
         }
         picture.note("rows: samples, columns: control points; red: entries > 0");
       });

@@ -254,12 +254,7 @@ int main(int argc, char** argv) {
       },
       [&](Picture& picture) {
         auto scene = shell(boundary, 0.15);
-        for (const auto& ray : rays.rays)
-          for (const auto& i : ray.intervals) {
-            Vec<3> a = ray.origin, b = ray.origin;
-            a[0] = i.begin, b[0] = i.end;
-            add_line(scene, a, b, green.with_alpha(0.8), 2, 0.8);
-          }
+        add_stretches(scene, rays, green.with_alpha(0.8), 2);
         add_balls(scene, quadrature.position, 0.022, [&](int k) {
           return colors::viridis(quadrature.weight[k] / quadrature.weight.maxCoeff());
         });
@@ -310,16 +305,11 @@ int main(int argc, char** argv) {
       [&](Picture& picture) {
         render::RenderScene scene;
         add_parts(scene, open, [&](int) { return blue.with_alpha(0.25); });
+        add_stretches(scene, through_hole, green, 3);
         for (const auto& ray : through_hole.rays) {
-          Vec<3> a = ray.origin, b = ray.origin;
-          if (ray.hits.size() % 2 != 0) {
-            a[2] = -1.15, b[2] = 1.15;
-            add_line(scene, a, b, red, 2, 0.8);
-          }
-          for (const auto& i : ray.intervals) {
-            a[2] = i.begin, b[2] = i.end;
-            add_line(scene, a, b, green, 3, 0.8);
-          }
+          const Vec<3> end(0, 0, 1.15);
+          if (ray.hits.size() % 2 != 0)
+            add_line(scene, ray.origin - end, ray.origin + end, red, 2, 0.8);
         }
         view.draw(picture, scene);
         picture.note("rays along z; green: stretches inside, red: an odd number of hits");

@@ -20,11 +20,9 @@
 #include <cmath>
 
 #include "sem/lesson/lesson.h"
-#include "sem/scene/builtin.h"
 #include "sem/scene/monitor.h"
-#include "sem/scene/read_scene.h"
 #include "sem/solve/statics.h"
-#include "src3d/shapes/shape_fields.h"
+#include "src3d/tutorials/scenes.h"
 #include "src3d/tutorials/solid_view.h"
 
 using namespace sem;
@@ -33,14 +31,6 @@ using namespace sem::tutorial;
 namespace {
 
 constexpr double truth_small = -9.452e-3, truth_large = -4.595;  // m, at g = 0.01 and 10 m/s^2
-
-// The program's scenes with some settings changed; no files.
-Scene<3> scene_of(const std::string& name, const std::vector<std::string>& settings) {
-  for (const auto& builtin : builtin_scenes<3>())
-    if (builtin.name == name)
-      return read_scene<3>(builtin.text, name, shapes3d::describe_shape, settings);
-  return {};
-}
 
 struct Answer {
   std::unique_ptr<Model<3>> model = {};
@@ -96,7 +86,7 @@ int main(int argc, char** argv) {
   lesson.step(
       "The beam, condensed",
       [&](std::ostream& out) {
-        scene = scene_of("beam_condensed", condensed(along, degree, rays, 0.01));
+        scene = builtin_scene("beam_condensed", condensed(along, degree, rays, 0.01));
         small = {.model = build_model(scene, "beam_condensed")};
         const auto& d = small.model->discretization;
         out << d.boundary.n_parts() << " patches, " << d.boundary.n_controls()
@@ -164,7 +154,8 @@ int main(int argc, char** argv) {
         rules = {{"condensed", {}, {}}};
         std::vector<std::vector<std::string>> rows;
         for (const int n : {3, 4, 5, 6, 7}) {
-          const Answer a = solve(scene_of("beam_condensed", condensed(along, degree, n, 0.01)));
+          const Answer a =
+              solve(builtin_scene("beam_condensed", condensed(along, degree, n, 0.01)));
           const int points = a.model->discretization.quadrature.size();
           rules[0].x.push_back(points);
           const bool ok = a.report.status == Status::converged;
@@ -199,10 +190,10 @@ int main(int argc, char** argv) {
           rows.push_back({shares[trace].label, std::to_string(d.boundary.n_parts()),
                           std::to_string(a.model->n_unknowns()), rounded(share, 3) + " %"});
         };
-        for (const int k : {1, 2, 4, 6}) add(0, solve(scene_of("beam", projected(k, 0.01))));
+        for (const int k : {1, 2, 4, 6}) add(0, solve(builtin_scene("beam", projected(k, 0.01))));
         for (int n = 1; n <= 3; ++n)
           for (int k = 1; k <= (n == 3 ? 2 : 3); ++k)
-            add(n, solve(scene_of("beam_condensed", condensed(k, n, 6, 0.01))));
+            add(n, solve(builtin_scene("beam_condensed", condensed(k, n, 6, 0.01))));
         out << table({"tip of the truth", "patches", "unknowns", ""}, rows);
       },
       [&](Picture& picture) {
@@ -217,7 +208,7 @@ int main(int argc, char** argv) {
   lesson.step(
       "Under its weight",
       [&](std::ostream& out) {
-        heavy = scene_of("beam_condensed", condensed(along, degree, rays, 10));
+        heavy = builtin_scene("beam_condensed", condensed(along, degree, rays, 10));
         large = solve(heavy);
         painter = std::make_unique<SolidPainter>(heavy);
         out << name(large.report.status) << " in " << large.report.iterations

@@ -25,19 +25,13 @@
 #include "sem/method/discretization.h"
 #include "sem/scene/model.h"
 #include "sem/solve/statics.h"
-#include "src3d/tutorials/drilled_plate.h"
+#include "src3d/tutorials/scenes.h"
 #include "src3d/tutorials/solid_view.h"
 
 using namespace sem;
 using namespace sem::tutorial;
 
 namespace {
-
-Boundary<3> boundary_of(const std::vector<ScenePart<3>>& parts) {
-  std::vector<TrimLoops> trims;
-  for (const auto& part : parts) trims.push_back(part.trims);
-  return make_boundary<3>({surfaces_of(parts)}, trims);
-}
 
 // z = a (x^2 + y^2), x = 2u - 1, y = 2v - 1: Bernstein coefficients of t^2 on [-1, 1] are 1, -1, 1.
 Nurbs<2, 3> paraboloid(double a) {
@@ -178,12 +172,7 @@ int main(int argc, char** argv) {
           return !parts[i].trims.empty() ? colors::mix(blue, colors::white, 0.4).with_alpha(0.6)
                                          : clay.with_alpha(0.4);
         });
-        for (const auto& ray : rays.rays)
-          for (const auto& i : ray.intervals) {
-            Vec<3> a = ray.origin, b = ray.origin;
-            a[0] = i.begin, b[0] = i.end;
-            add_line(scene, a, b, green, 4, 0.7);
-          }
+        add_stretches(scene, rays, green, 4);
         view.draw(picture, scene);
         picture.note("blue: trimmed faces; green: rays along x, inside");
       });
@@ -240,22 +229,9 @@ int main(int argc, char** argv) {
   lesson.step(
       "Pull the plate: the hole becomes an oval",
       [&](std::ostream& out) {
-        scene = {};
-        scene.name = "drilled plate";
-        scene.solids = {{"plate", {MaterialModel::neo_ref, 1e6, 0.4, 1000}, parts}};
-        scene.method.projection.degree = 2;
-        scene.method.origins = OriginChoice::one;
-        scene.method.weights.cutoff = 0.6;
-        scene.method.rays = {.axis = 2, .n_rays = 12};
-        scene.method.interval.points = 4;
-        scene.analysis.kind = AnalysisKind::statics;
-        scene.pins.resize(2);
-        for (const int k : {0, 1}) {
-          scene.pins[k].where.part = k == 0 ? "left" : "right";
-          scene.pins[k].axes = every_axis<3>();
-        }
+        scene = plate_scene({{"plate", plate_material, parts}});
         scene.pins[1].displacement[0] = pull;
-        model = build_model(scene, "drilled plate");
+        model = build_model(scene, "plate");
         state = model->initial;
         StaticOptions options;
         options.target = model->target;

@@ -31,7 +31,7 @@
 #include "sem/scene/model.h"
 #include "sem/solve/statics.h"
 #include "src3d/cad/cad.h"
-#include "src3d/tutorials/drilled_plate.h"
+#include "src3d/tutorials/scenes.h"
 #include "src3d/tutorials/solid_view.h"
 
 using namespace sem;
@@ -40,16 +40,6 @@ using namespace sem::tutorial;
 namespace {
 
 constexpr double height = 0.4, radius = 0.3;
-
-Boundary<3> boundary_of(const std::vector<CadPart>& parts) {
-  std::vector<Nurbs<2, 3>> shapes;
-  std::vector<TrimLoops> trims;
-  for (const auto& part : parts) {
-    shapes.push_back(part.shape);
-    trims.push_back(part.trims);
-  }
-  return make_boundary<3>({shapes}, trims);
-}
 
 // The largest difference of control points of equally named parts, m; NaN if a part is missing.
 double difference(const std::vector<CadPart>& a, const std::vector<CadPart>& b) {
@@ -257,20 +247,7 @@ int main(int argc, char** argv) {
   lesson.step(
       "Deform it, and write it back",
       [&](std::ostream& out) {
-        scene = {};
-        scene.name = "plate";
-        scene.solids = solids_of(model, {MaterialModel::neo_ref, 1e6, 0.4, 1000});
-        scene.method.projection.degree = 2;
-        scene.method.origins = OriginChoice::one;
-        scene.method.weights.cutoff = 0.6;
-        scene.method.rays = {.axis = 2, .n_rays = 12};
-        scene.method.interval.points = 4;
-        scene.analysis.kind = AnalysisKind::statics;
-        scene.pins.resize(2);
-        for (const int k : {0, 1}) {
-          scene.pins[k].where.part = k == 0 ? "left" : "right";
-          scene.pins[k].axes = every_axis<3>();
-        }
+        scene = plate_scene(solids_of(model, plate_material));
         scene.pins[1].rotation[0] = turn_by * M_PI / 180;
         scene.pins[1].center = Vec<3>(1, 0.5, height / 2);
         solved = build_model(scene, "plate");

@@ -20,24 +20,15 @@
 #include <cmath>
 
 #include "sem/lesson/lesson.h"
-#include "sem/scene/builtin.h"
 #include "sem/scene/monitor.h"
-#include "sem/scene/read_scene.h"
 #include "sem/solve/sparse_cholesky.h"
-#include "src3d/shapes/shape_fields.h"
+#include "src3d/tutorials/scenes.h"
 #include "src3d/tutorials/solid_view.h"
 
 using namespace sem;
 using namespace sem::tutorial;
 
 namespace {
-
-Scene<3> scene_of(const std::string& name, const std::vector<std::string>& settings) {
-  for (const auto& builtin : builtin_scenes<3>())
-    if (builtin.name == name)
-      return read_scene<3>(builtin.text, name, shapes3d::describe_shape, settings);
-  return {};
-}
 
 // All states, the first included, and how it ended.
 struct Motion {
@@ -80,9 +71,9 @@ int main(int argc, char** argv) {
   lesson.step(
       "A scene and its model",
       [&](std::ostream& out) {
-        scene = scene_of("torus", {"solids[0].material.youngs_modulus=" + rounded(E),
-                                   "method.quadrature.spacing=0.16",
-                                   "solids[0].shape.parts=[" + std::to_string(parts) + ",1]"});
+        scene = builtin_scene("torus", {"solids[0].material.youngs_modulus=" + rounded(E),
+                                        "method.quadrature.spacing=0.16",
+                                        "solids[0].shape.parts=[" + std::to_string(parts) + ",1]"});
         model = build_model(scene, "torus");
         painter = std::make_unique<SolidPainter>(scene);
         const auto& d = model->discretization;
@@ -243,10 +234,11 @@ int main(int argc, char** argv) {
         for (const int n : {2, 4, 8, 16}) {
           const std::string slices = std::to_string(n);
           const auto beam = build_model(
-              scene_of("beam", {"solids[0].shape.upper=[" + slices + ",1,1]",
-                                "solids[0].shape.parts=[" + slices + ",1,1]",
-                                "method.origins=shared_parts", "method.quadrature.rays=4",
-                                "method.quadrature.points=" + std::to_string(4 * n), "probes=[]"}),
+              builtin_scene("beam",
+                            {"solids[0].shape.upper=[" + slices + ",1,1]",
+                             "solids[0].shape.parts=[" + slices + ",1,1]",
+                             "method.origins=shared_parts", "method.quadrature.rays=4",
+                             "method.quadrature.points=" + std::to_string(4 * n), "probes=[]"}),
               "beam");
           auto K = beam->system.potential->new_hessian();
           SparseCholesky factor(K.plan(), K.components(), beam->system.free);

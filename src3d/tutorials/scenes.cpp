@@ -1,12 +1,23 @@
-#include "src3d/tutorials/drilled_plate.h"
+#include "src3d/tutorials/scenes.h"
 
+#include "sem/base/error.h"
 #include "sem/nurbs/bezier_curve.h"
 #include "sem/nurbs/refine.h"
+#include "sem/scene/builtin.h"
+#include "sem/scene/read_scene.h"
 #include "src2d/shapes/shapes.h"
 #include "src3d/shapes/box.h"
+#include "src3d/shapes/shape_fields.h"
 #include "src3d/shapes/solids.h"
 
 namespace sem::tutorial {
+
+Scene<3> builtin_scene(const std::string& name, const std::vector<std::string>& settings) {
+  for (const auto& builtin : builtin_scenes<3>())
+    if (builtin.name == name)
+      return read_scene<3>(builtin.text, name, shapes3d::describe_shape, settings);
+  throw InputError("", "scene", name, "the name of a scene of sem3d");
+}
 
 std::vector<Nurbs<1, 2>> circle(const Vec<2>& center, double radius) {
   std::vector<Nurbs<1, 2>> arcs;
@@ -46,6 +57,24 @@ std::vector<ScenePart<3>> drilled_plate(const Vec<2>& center, double radius, dou
   }
   shapes3d::elevate(parts, 2);
   return parts;
+}
+
+Scene<3> plate_scene(const std::vector<SceneSolid<3>>& solids) {
+  Scene<3> scene;
+  scene.name = "plate";
+  scene.solids = solids;
+  scene.method.projection.degree = 2;
+  scene.method.origins = OriginChoice::one;
+  scene.method.weights.cutoff = 0.6;
+  scene.method.rays = {.axis = 2, .n_rays = 12};
+  scene.method.interval.points = 4;
+  scene.analysis.kind = AnalysisKind::statics;
+  scene.pins.resize(2);
+  for (const int k : {0, 1}) {
+    scene.pins[k].where.part = k == 0 ? "left" : "right";
+    scene.pins[k].axes = every_axis<3>();
+  }
+  return scene;
 }
 
 }  // namespace sem::tutorial
