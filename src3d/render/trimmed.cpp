@@ -81,7 +81,7 @@ class Cutter {
 };
 
 // Enough for the piece without trims.
-int cells_of(const Surface& surface, const BezierPiece<2, 3>& piece, const Flatness& flatness) {
+int cells_a_side(const Surface& surface, const BezierPiece<2, 3>& piece, const Flatness& flatness) {
   int n = std::max(least_cells, flatness.least_cells);
   const auto X = [&](double s, double t) {
     return point(surface,
@@ -107,7 +107,7 @@ Mesh tessellate_trimmed(const Surface& surface, const Flatness& flatness) {
   Mesh mesh;
   const Cutter cutter(surface);
   for (const auto& piece : surface.pieces)
-    cutter.visit_cells(piece, cells_of(surface, piece, flatness),
+    cutter.visit_cells(piece, cells_a_side(surface, piece, flatness),
                        [&](const std::vector<Corner>& corners) {
                          const int base = int(mesh.position.size());
                          for (const auto& corner : corners) {

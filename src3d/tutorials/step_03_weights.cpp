@@ -110,8 +110,8 @@ int main(int argc, char** argv) {
             << " m, |X* to hit| = " << (std::isinf(d_total) ? "no hit" : rounded(d_total, 4) + " m")
             << "\ntheta = " << rounded(ours, 4)
             << ", library's - ours: " << error_text(library - ours)
-            << "\nw = " << rounded(library / sum, 4) << ", " << theta.part.size()
-            << " parts have theta > 0\n";
+            << "\nw = " << (sum > 0 ? rounded(library / sum, 4) : "undefined") << ", "
+            << theta.part.size() << " parts have theta > 0\n";
         if (part == 8) out << "|X - X*| - x: " << error_text(foot.distance - X[0]) << "\n";
       },
       [&](Picture& picture) {
