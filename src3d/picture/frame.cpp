@@ -103,9 +103,9 @@ class SolidPainter::Drawing {
     Nurbs<2, 3> nurbs = b.parts[i].nurbs;
     nurbs.control_points =
         p.middleCols(b.first_control[i], b.first_control[i + 1] - b.first_control[i]);
-    PreparedNurbs<2, 3> part = prepare(nurbs);
-    part.region = b.parts[i].region;  // of its parameters
-    return part;
+    auto prepared = prepare(nurbs);
+    prepared.region = b.parts[i].region;  // in the parameter plane as at rest
+    return prepared;
   }
 
   // Adds the parts. Returns where the colour scale ends.

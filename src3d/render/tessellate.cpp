@@ -4,8 +4,6 @@
 #include <cmath>
 #include <functional>
 
-#include "src3d/render/trimmed.h"
-
 namespace sem::render {
 namespace {
 
@@ -121,6 +119,81 @@ PieceGrid grid_of(const Surface& surface, const Piece& piece, const Flatness& fl
   return grid;
 }
 
+// A trimmed piece: triangles in the parameter plane, each with corners of its own, and the segments
+// in which the trims cut them.
+class TrimmedGrid {
+ public:
+  TrimmedGrid(const Surface& surface, const Piece& piece, const Flatness& flatness)
+      : region_(*surface.region) {
+    auto n = cells_of(surface, piece, flatness);
+    for (int& count : n) count = std::max(count, least_cells);
+    const Param<2> size = (piece.upper - piece.lower).cwiseQuotient(Param<2>(n[0], n[1]));
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
+        add_cell(piece.lower + size.cwiseProduct(Param<2>(i, j)), size);
+  }
+
+  std::vector<std::array<Param<2>, 3>> triangles;
+  std::vector<std::array<Param<2>, 2>> border;
+
+ private:
+  static constexpr int least_cells = 16, pieces_of_cut_cell = 4;
+
+  void add_cell(const Param<2>& lower, const Param<2>& size) {
+    const Overlap overlap = region_.overlap(lower, lower + size);
+    if (overlap == Overlap::none) return;
+    const int n = overlap == Overlap::all ? 1 : pieces_of_cut_cell;
+    const Param<2> step = size / n;
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const Param<2> a = lower + step.cwiseProduct(Param<2>(i, j)), c = a + step;
+        for (const auto& corner : {Param<2>(c[0], a[1]), Param<2>(a[0], c[1])})
+          add_triangle({a, corner, c}, overlap == Overlap::all);
+      }
+  }
+
+  // The part of a triangle that is inside, cut straight between where its sides cross the border.
+  void add_triangle(std::array<Param<2>, 3> u, bool whole) {
+    const auto [a, b, c] = u;
+    if ((b - a)[0] * (c - a)[1] < (b - a)[1] * (c - a)[0]) std::swap(u[1], u[2]);
+    std::vector<Param<2>> polygon, cut;
+    for (int k = 0; k < 3; ++k) {
+      const Param<2>&from = u[k], &to = u[(k + 1) % 3];
+      const bool in = whole || region_.contains(from), next_in = whole || region_.contains(to);
+      if (in) polygon.push_back(from);
+      if (in == next_in) continue;
+      cut.push_back(in ? crossing(from, to) : crossing(to, from));
+      polygon.push_back(cut.back());
+    }
+    for (size_t k = 2; k < polygon.size(); ++k)
+      triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});
+    if (cut.size() == 2) border.push_back({cut[0], cut[1]});
+  }
+
+  Param<2> crossing(Param<2> in, Param<2> out) const {
+    for (int halving = 0; halving < 12; ++halving) {
+      const Param<2> middle = (in + out) / 2;
+      (region_.contains(middle) ? in : out) = middle;
+    }
+    return in;
+  }
+
+  const Region<2, 3>& region_;
+};
+
+void append_trimmed(const Surface& surface, const Piece& piece, const Flatness& flatness,
+                    Mesh& mesh) {
+  for (const auto& triangle : TrimmedGrid(surface, piece, flatness).triangles) {
+    const int first = int(mesh.position.size());
+    for (const auto& u : triangle) {
+      mesh.position.push_back(point(surface, u));
+      mesh.normal.push_back(unit_normal(surface, u));
+      mesh.uv.push_back(u);
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+}
+
 // Where an axis of the surface ends or has a knot.
 std::vector<double> stations(const std::vector<Interval>& spans, int between, bool knots) {
   std::vector<double> values = {spans.front().lower};
@@ -180,9 +253,12 @@ Vec<3> unit_normal(const Surface& surface, const Param<2>& u) {
 }
 
 Mesh tessellate(const Surface& surface, const Flatness& flatness) {
-  if (surface.region) return tessellate_trimmed(surface, flatness);
   Mesh mesh;
   for (const auto& piece : surface.pieces) {
+    if (surface.region) {
+      append_trimmed(surface, piece, flatness, mesh);
+      continue;
+    }
     const PieceGrid grid = grid_of(surface, piece, flatness);
     const int base = int(mesh.position.size()), row = grid.n_u + 1;
     const Param<2> size = piece.upper - piece.lower;
@@ -218,8 +294,12 @@ std::vector<Chain> isoparametric_lines(const Surface& surface, int between, bool
 }
 
 std::vector<Chain> outline(const Surface& surface, const Flatness& flatness) {
-  if (surface.region) return trimmed_outline(surface);
-  return isoparametric_lines(surface, 0, false, flatness);
+  if (!surface.region) return isoparametric_lines(surface, 0, false, flatness);
+  std::vector<Chain> segments;
+  for (const auto& piece : surface.pieces)
+    for (const auto& [a, b] : TrimmedGrid(surface, piece, flatness).border)
+      segments.push_back({point(surface, a), point(surface, b)});
+  return segments;
 }
 
 std::vector<Chain> control_net(const Nurbs<2, 3>& surface) {

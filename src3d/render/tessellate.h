@@ -16,7 +16,8 @@ struct Flatness {
 /// powers of two up to 128. Vertices inside a piece lie on the surface; those on a piece's edge lie
 /// on the chain of points that the edge by itself asks for, so that pieces and parts that share an
 /// edge (as the same curve, run either way) leave no crack. Normals are du x dv, exact; at a
-/// collapsed edge their limit. Trimmed surfaces: what the trims leave (trimmed.h).
+/// collapsed edge their limit. Of a trimmed surface what its trims leave, cut straight in cells of 1/64 of a piece
+/// or less, with corners of its own for every triangle.
 Mesh tessellate(const PreparedNurbs<2, 3>& surface, const Flatness& flatness);
 
 /// Unit normal along du x dv. Where the derivatives vanish or are parallel (poles, collapsed edges)
@@ -29,7 +30,7 @@ using Chain = std::vector<Vec<3>>;
 /// both directions; with knots, lines along the knots in between as well.
 std::vector<Chain> isoparametric_lines(const PreparedNurbs<2, 3>& surface, int between, bool knots,
                                        const Flatness& flatness);
-/// The sides of the domain alone; of a trimmed surface its border.
+/// The sides of the domain alone, or of a trimmed surface its trims, in segments.
 std::vector<Chain> outline(const PreparedNurbs<2, 3>& surface, const Flatness& flatness);
 /// Rows and columns of control points.
 std::vector<Chain> control_net(const Nurbs<2, 3>& surface);

@@ -4,6 +4,7 @@
 #include "sem/nurbs/basis.h"
 #include "solids3d.h"
 #include "src3d/shapes/box.h"
+#include "trimmed.h"
 
 using namespace sem;
 using namespace sem::render;
@@ -115,4 +116,31 @@ TEST_CASE("isoparametric lines: sides, lines between, no line where an edge is c
   for (const auto& line : lines)
     for (const auto& X : line) CHECK(X.norm() == doctest::Approx(1));
   CHECK(control_net(ball[0].nurbs).size() == 3 + 5);
+}
+
+TEST_CASE("a trimmed surface has triangles and an outline only where its trims leave it") {
+  // The square [-1, 1]^2 on a paraboloid, trimmed to a ring.
+  auto surface = prepare(test::paraboloid(0.1));
+  TrimLoops ring = {test::circle({0.1, 0}, 0.8), test::circle({0.1, 0}, 0.3)};
+  surface.region = make_region<3>(surface, ring);
+  const Mesh mesh = tessellate(surface, {1e-3});
+  double area = 0;
+  for (const auto& t : mesh.triangles) {
+    const auto u = [&](int k) { return Vec<2>(mesh.uv[t[k]]); };
+    const double twice = DimTraits<2>::cross(u(1) - u(0), u(2) - u(0))[0];
+    CHECK(twice >= 0);  // as du x dv
+    area += twice / 2;
+    for (int k = 0; k < 3; ++k) {
+      const double r = (u(k) - Vec<2>(0.1, 0)).norm();
+      CHECK(r < 0.8 + 1e-6);
+      CHECK(r > 0.3 - 1e-6);
+    }
+  }
+  CHECK(area == doctest::Approx(M_PI * (0.64 - 0.09)).epsilon(2e-3));
+  double length = 0;
+  for (const auto& chain : outline(surface, {1e-3})) {
+    REQUIRE(chain.size() == 2);
+    length += (chain[1] - chain[0]).head<2>().norm();
+  }
+  CHECK(length == doctest::Approx(2 * M_PI * 1.1).epsilon(5e-3));
 }
