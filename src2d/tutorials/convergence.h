@@ -10,7 +10,7 @@
 #include "src2d/baseline/manufactured.h"
 #include "src2d/tutorials/drawing.h"
 #include "src2d/tutorials/matrices.h"
-#include "src2d/tutorials/plots.h"
+#include "sem/lesson/plots.h"
 
 namespace sem::tutorial {
 

@@ -11,8 +11,6 @@
 namespace sem::tutorial {
 namespace {
 
-using Vertical = TextStyle::Vertical;
-
 Points<2> points_of(const std::vector<Vec<2>>& list) {
   Points<2> points(2, list.size());
   for (std::size_t k = 0; k < list.size(); ++k) points.col(k) = list[k];
@@ -60,11 +58,6 @@ Points<2> polyline(const Nurbs<1, 2>& curve, int n) {
   return points;
 }
 
-Color part_color(int part) {
-  static constexpr int order[] = {0, 1, 2, 3, 4, 5, 7};
-  return colors::categorical(order[part % 7]);
-}
-
 void draw_parts(Picture& picture, const Curves& parts, const std::string& names, double width) {
   Vec<2> middle = Vec<2>::Zero();
   for (const auto& part : parts) middle += polyline(part, 2).col(1) / double(parts.size());
@@ -92,12 +85,6 @@ Eigen::MatrixXd dense(const std::vector<int>& begin, const std::vector<int>& col
   for (int k = 0; k < m.rows(); ++k)
     for (int e = begin[k]; e < begin[k + 1]; ++e) m(k, column[e]) = value[e];
   return m;
-}
-
-std::string list(const Eigen::VectorXd& v, int digits) {
-  std::string text;
-  for (int i = 0; i < v.size(); ++i) text += (i > 0 ? ", " : "") + rounded(v[i], digits);
-  return text;
 }
 
 Cells cells_inside(const Boundary<2>& boundary, const Loops<2>& loops, int n) {
@@ -226,32 +213,12 @@ void draw_measure(Picture& picture, const Vec<2>& a, const Vec<2>& b, const std:
   picture.label((a + b) / 2, text, color, offset, 20);
 }
 
-void color_bar(Picture& picture, const std::string& lower, const std::string& upper,
-               const std::optional<Vec<2>>& place) {
-  const Vec<2> at = place.value_or(picture.part({0.02, 0.02}, {1, 1}).lower);
-  constexpr double width = 150, height = 16, size = Picture::text_size;
-  Canvas& canvas = picture.canvas();
-  const double left = at[0] + canvas.text_width(lower, size) + 8;
-  for (int i = 0; i < int(width); ++i)
-    canvas.fill_box({{left + i, at[1]}, {left + i + 1, at[1] + height}},
-                    colors::viridis(i / width));
-  const TextStyle style{.size = size, .vertical = Vertical::middle};
-  canvas.text({at[0], at[1] + height / 2}, lower, style);
-  canvas.text({left + width + 8, at[1] + height / 2}, upper, style);
-}
-
 std::string coordinates(const Vec<2>& X) { return "(" + list(X, 3) + ")"; }
 
 int nearest(const Points<2>& points, const Vec<2>& X) {
   int k = 0;
   (points.colwise() - X).colwise().squaredNorm().minCoeff(&k);
   return k;
-}
-
-std::string reading(const std::string& label, double value) {
-  const auto comma = label.rfind(", ");
-  const std::string unit = comma == std::string::npos ? "" : " " + label.substr(comma + 2);
-  return label.substr(0, comma) + " = " + rounded(value, 4) + unit;
 }
 
 void read_values(Picture& picture, const Points<2>& points, const Eigen::VectorXd& values,

@@ -1,5 +1,5 @@
 #pragma once
-// What several tutorials draw: the three-curve solid, the parts of a boundary, fields in its
+// What several tutorials draw in the plane: the three-curve solid, the parts of a boundary, fields in its
 // inside, marks. Nothing of the method is computed here.
 
 #include <functional>
@@ -7,15 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "sem/lesson/picture.h"
+#include "sem/lesson/plots.h"
 #include "sem/method/blending_weights.h"
 
 namespace sem::tutorial {
 
 using Curves = std::vector<Nurbs<1, 2>>;
-
-inline const Color blue = colors::categorical(0), red = colors::categorical(1),
-                   green = colors::categorical(2);
 
 /// The solid of the draft's figures 4 and 5 as three cubic Bezier curves around nine points: A from
 /// point 1 to 4, B from 4 to 7, C from 7 back to 1. `three_points` is a choice of them, m.
@@ -34,8 +31,6 @@ Points<2> polyline(const Nurbs<1, 2>& curve, int n = 60);
 /// mouse reads name and u on a curve.
 void draw_parts(Picture& picture, const Curves& parts, const std::string& names = "",
                 double width = 4);
-/// A = blue, B = red, C = green, ...
-Color part_color(int part);
 
 /// Values stored in rows (as theta and w are) with their zeros: #rows by n_columns.
 Eigen::MatrixXd dense(const std::vector<int>& begin, const std::vector<int>& column,
@@ -46,8 +41,6 @@ inline Eigen::MatrixXd dense(const DistanceWeights<2>& t) {
 inline Eigen::MatrixXd dense(const BlendingWeights<2>& w) {
   return dense(w.begin, w.part, w.w, w.n_parts);
 }
-/// "1, 0.5, 0" of a vector's entries, each rounded().
-std::string list(const Eigen::VectorXd& v, int digits = 4);
 
 /// Square cells whose centres lie inside the body.
 struct Cells {
@@ -69,15 +62,10 @@ void draw_field(Picture& picture, const Cells& cells, const Eigen::VectorXd& val
 /// mouse reads w.
 void draw_weights(Picture& picture, const Cells& cells, const Eigen::MatrixXd& w,
                   const std::vector<int>& pale = {});
-/// A bar of viridis from 0 to 1 between two texts at a place in pixels, else in the upper left.
-void color_bar(Picture& picture, const std::string& lower, const std::string& upper,
-               const std::optional<Vec<2>>& place = {});
 
 /// "(1.2, 3)", for hovering.
 std::string coordinates(const Vec<2>& X);
 int nearest(const Points<2>& points, const Vec<2>& X);  ///< column
-/// "time = 0.5 s" from "time, s" and 0.5.
-std::string reading(const std::string& label, double value);
 /// The mouse reads the label and the value of the nearest of some points.
 void read_values(Picture& picture, const Points<2>& points, const Eigen::VectorXd& values,
                  const std::string& label);

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "sem/lesson/numbers.h"
+#include "sem/lesson/plots.h"
 #include "sem/mechanics/loads.h"
 #include "sem/mechanics/quadratic_forms.h"
 #include "src2d/picture/outline.h"
 #include "src2d/shapes/shapes.h"
 #include "src2d/tutorials/matrices.h"
-#include "src2d/tutorials/plots.h"
 
 namespace sem::tutorial {
 namespace {
@@ -249,6 +249,16 @@ void draw_springs(Picture& picture, const Samples<2>& samples, const Points<2>& 
                   {"the curve J(u) p", colors::gray},
                   {"springs, red: most energy", red}},
                  Picture::Corner::lower_left);
+}
+
+Trace spectrum(const std::string& label, const Eigen::MatrixXd& matrix) {
+  const Eigen::VectorXd values = eigenvalues(matrix);
+  Trace trace{label, {}, {}};
+  for (int i = 0; i < values.size(); ++i) {
+    trace.x.push_back(i + 1);
+    trace.y.push_back(std::max(1e-18, std::abs(values[i]) / values.maxCoeff()));
+  }
+  return trace;
 }
 
 }  // namespace sem::tutorial

@@ -48,6 +48,8 @@ State rest_state(const Discretization<2>& body, const Vec<2>& v = {0, 0}, double
 Eigen::VectorXd heaviest_motion(const Discretization<2>& body, const Eigen::MatrixXd& M2,
                                 const Eigen::MatrixXd& motions);
 
+/// Eigenvalues of a symmetric matrix over the largest, from 1e-18 on, for a logarithmic axis.
+Trace spectrum(const std::string& label, const Eigen::MatrixXd& matrix);
 /// A run of the library's integrators: what every step left, the first state included.
 struct Run {
   std::vector<double> time;      ///< s

@@ -6,10 +6,10 @@
 #include "sem/draw/image.h"
 #include "sem/lesson/numbers.h"
 #include "sem/lesson/part_canvas.h"
+#include "sem/lesson/plots.h"
 #include "sem/picture/scales.h"
 #include "src2d/picture/frame.h"
 #include "src2d/picture/outline.h"
-#include "src2d/tutorials/plots.h"
 
 namespace sem::tutorial {
 

@@ -28,7 +28,7 @@
 #include "sem/nurbs/closest.h"
 #include "src2d/tutorials/drawing.h"
 #include "src2d/tutorials/matrices.h"
-#include "src2d/tutorials/plots.h"
+#include "sem/lesson/plots.h"
 
 using namespace sem;
 

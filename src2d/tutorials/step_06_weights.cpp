@@ -29,7 +29,7 @@
 #include "sem/nurbs/closest.h"
 #include "sem/nurbs/hits.h"
 #include "src2d/tutorials/pictures.h"
-#include "src2d/tutorials/plots.h"
+#include "sem/lesson/plots.h"
 
 using namespace sem;
 using namespace sem::tutorial;

@@ -25,7 +25,7 @@
 #include "sem/method/quadrature.h"
 #include "src2d/tutorials/matrices.h"
 #include "src2d/tutorials/pictures.h"
-#include "src2d/tutorials/plots.h"
+#include "sem/lesson/plots.h"
 
 using namespace sem;
 using namespace sem::tutorial;

@@ -27,7 +27,7 @@
 #include "sem/method/discretization.h"
 #include "src2d/tutorials/matrices.h"
 #include "src2d/tutorials/pictures.h"
-#include "src2d/tutorials/plots.h"
+#include "sem/lesson/plots.h"
 
 using namespace sem;
 using namespace sem::tutorial;

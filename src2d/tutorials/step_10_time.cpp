@@ -23,7 +23,7 @@
 #include "src2d/tutorials/hung_body.h"
 #include "src2d/tutorials/matrices.h"
 #include "src2d/tutorials/pictures.h"
-#include "src2d/tutorials/plots.h"
+#include "sem/lesson/plots.h"
 
 using namespace sem;
 using namespace sem::tutorial;

@@ -31,7 +31,7 @@
 #include "sem/scene/builtin.h"
 #include "src2d/shapes/shape_fields.h"
 #include "src2d/tutorials/pictures.h"
-#include "src2d/tutorials/plots.h"
+#include "sem/lesson/plots.h"
 
 using namespace sem;
 using namespace sem::tutorial;

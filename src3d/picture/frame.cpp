@@ -57,8 +57,9 @@ struct SolidPainter::Setup {
 class SolidPainter::Drawing {
  public:
   Drawing(Canvas& canvas, const Scene<3>& scene, const Model<3>& model, Setup& setup,
-          const State& state)
-      : canvas_(canvas),
+          const State& state, const std::optional<Vec<3>>& from)
+      : direction_(direction_of(setup.up)),
+        canvas_(canvas),
         scene_(scene),
         model_(model),
         setup_(setup),
@@ -69,6 +70,7 @@ class SolidPainter::Drawing {
         flatness_{setup.box.diagonal() / 2000,
                   model.discretization.boundary.n_parts() > 100 ? 4 : 8} {
     result_.up = setup.up;
+    if (from) direction_.from = *from;
   }
 
   void draw() {
@@ -80,8 +82,8 @@ class SolidPainter::Drawing {
     double lowest = std::numeric_limits<double>::infinity();
     for (const auto& corner : corners) lowest = std::min(lowest, setup_.up.dot(corner));
     result_.ground = lowest;
-    const auto camera = render::framing(corners, direction_of(setup_.up),
-                                        Box<2>{Vec<2>::Zero(), Vec<2>(width, height)});
+    const auto camera =
+        render::framing(corners, direction_, Box<2>{Vec<2>::Zero(), Vec<2>(width, height)});
     auto options = render::frame_quality(width, height);
     // Mostly light from everywhere, so that colours can be compared with the bar.
     options.lighting.ambient = 0.66;
@@ -180,6 +182,7 @@ class SolidPainter::Drawing {
     }
   }
 
+  render::ViewDirection direction_;
   Canvas& canvas_;
   const Scene<3>& scene_;
   const Model<3>& model_;
@@ -206,7 +209,7 @@ Box<2> SolidPainter::area(const Canvas& canvas) {
 
 void SolidPainter::draw(Canvas& canvas, const Model<3>& model, const State& state) {
   if (!setup_) setup_ = std::make_unique<Setup>(scene_, model);
-  Drawing(canvas, scene_, model, *setup_, state).draw();
+  Drawing(canvas, scene_, model, *setup_, state, from_).draw();
 }
 
 std::function<Image(const Model<3>&, const State&)> make_solid_painter(const Scene<3>& scene) {

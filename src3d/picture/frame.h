@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "sem/draw/canvas.h"
 #include "sem/draw/image.h"
@@ -25,6 +26,8 @@ class SolidPainter {
   ~SolidPainter();
   /// As FramePainter in 2D: sizes follow the canvas, all states belong to the model drawn first.
   void draw(Canvas& canvas, const Model<3>& model, const State& state);
+  /// From now on the camera stands in this direction from the body (any length; not along up).
+  void look_from(const Vec<3>& from) { from_ = from; }
 
   /// The pixels of a canvas in which the world is drawn.
   static Box<2> area(const Canvas& canvas);
@@ -33,6 +36,7 @@ class SolidPainter {
   struct Setup;
   class Drawing;
   const Scene<3>& scene_;
+  std::optional<Vec<3>> from_;
   std::unique_ptr<Setup> setup_;
 };
 

@@ -262,3 +262,21 @@ TEST_CASE("an error of a step is shown in place of its numbers, and can be left"
   CHECK(desk.small.lesson.current() == 0);
   CHECK(!desk.small.fail);
 }
+
+TEST_CASE("a drag beside the handles turns the camera and reruns no step") {
+  Desk desk;
+  Vec<2> angles(30, 20);
+  desk.small.lesson.orbit(angles);
+  const Vec<2> middle = desk.center("picture");
+  const int n_runs = desk.n_runs(), n_draws = desk.small.n_draws;
+  desk.drag(middle, middle + Vec<2>(40, -20));
+  CHECK(angles == Vec<2>(10, 10));
+  CHECK(desk.n_runs() == n_runs);
+  CHECK(desk.small.n_draws > n_draws);
+  CHECK(desk.small.lesson.settings() == "--set turn=10 --set lift=10");
+  // A handle that is dragged does not.
+  const Vec<2> handle = desk.center("corner");
+  desk.drag(handle, handle + Vec<2>(30, 0));
+  CHECK(angles == Vec<2>(10, 10));
+  CHECK(desk.n_runs() > n_runs);
+}

@@ -86,6 +86,21 @@ void Lesson::handle(const std::string& name, Vec<2>& point, const std::string& h
   add(std::move(p));
 }
 
+void Lesson::orbit(Vec<2>& angles) {
+  const char* const names[] = {"turn", "lift"};
+  const char* const help[] = {"of the camera about the vertical, degrees",
+                              "of the camera above the horizon, degrees"};
+  for (const int i : {0, 1}) {
+    Parameter p{.name = names[i], .help = help[i], .kind = Kind::real};
+    p.lower = Vec<2>(i == 0 ? -180 : -89, 0);
+    p.upper = -p.lower;
+    p.drawn_only = true;
+    p.get = [&angles, i] { return Vec<2>(angles[i], 0); };
+    p.set = [&angles, i](const Vec<2>& v) { angles[i] = v[0]; };
+    add(std::move(p));
+  }
+}
+
 void Lesson::step(const std::string& title, Compute compute, Draw draw, Hover hover) {
   steps_.push_back({title, std::move(compute), std::move(draw), std::move(hover)});
 }
@@ -117,6 +132,7 @@ void Lesson::change(const Parameter& parameter, const Vec<2>& value) {
   const Vec<2> allowed = value.cwiseMax(parameter.lower).cwiseMin(parameter.upper);
   if (allowed == parameter.get()) return;
   parameter.set(allowed);
+  if (parameter.drawn_only) return;
   for (int i = parameter.step; i < n_steps(); ++i) steps_[i].fresh = false;
   if (current_ >= 0) show(current_);
 }

@@ -63,6 +63,11 @@ class Lesson {
   void handles(const std::string& name, Points<2>& points, const std::string& help = "");
   void handle(const std::string& name, Vec<2>& point, const std::string& help = "");
 
+  /// Two angles in degrees that only pictures depend on, as sliders "turn" and "lift": where a
+  /// camera stands. Changing them reruns nothing; dragging a picture beside its handles changes
+  /// them too.
+  void orbit(Vec<2>& angles);
+
   /// The next step. `compute` may throw InputError for parameters that make no sense together.
   /// `hover` is what the mouse reads in the picture's last view, as if given to Picture::hover
   /// last.
@@ -77,7 +82,7 @@ class Lesson {
   const Box<2>& world() const { return world_; }
   int n_steps() const { return int(steps_.size()); }
   const std::string& step_title(int step) const { return steps_[step].title; }
-  /// The step shown last; -1 before the first show().
+  /// The step shown last; -1 before the first show(), or if only pictures depend on it.
   int current() const { return current_; }
   /// Makes the step current and runs what is out of date, from the first step to this one. If a
   /// step throws, the error passes through, the step is current and stays out of date.

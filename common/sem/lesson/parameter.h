@@ -18,6 +18,7 @@ struct Parameter {
   int step = 0;  ///< it belongs to, from 0
   // Allowed range; of a point: box. Numbers use the first component.
   Vec<2> lower = Vec<2>::Zero(), upper = Vec<2>::Zero();
+  bool drawn_only = false;   ///< no step depends on it, only pictures
   bool logarithmic = false;  ///< slider of a real
   std::vector<std::string> choices = {};
   // A number is the first component; a toggle is 0 or 1; a choice is its index.

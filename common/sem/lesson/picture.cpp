@@ -81,8 +81,13 @@ void Picture::arrow(const Vec<2>& from, const Vec<2>& vector, const Color& color
 
 void Picture::label(const Vec<2>& point, const std::string& text, const Color& color,
                     const Vec<2>& offset, double size) {
+  label_at(view().map(point), text, color, offset, size);
+}
+
+void Picture::label_at(const Vec<2>& pixel, const std::string& text, const Color& color,
+                       const Vec<2>& offset, double size) {
   using Horizontal = TextStyle::Horizontal;
-  const Vec<2> at = view().map(point) + offset;
+  const Vec<2> at = pixel + offset;
   // On the far side of the point: an offset to the left ends the text there.
   const auto horizontal = offset[0] > 0   ? Horizontal::left
                           : offset[0] < 0 ? Horizontal::right

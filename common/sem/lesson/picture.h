@@ -59,6 +59,10 @@ class Picture {
   void label(const Vec<2>& point, const std::string& text, const Color& color = colors::black,
              const Vec<2>& offset = {9, -9}, double size = text_size);
 
+  /// The same at a place in pixels.
+  void label_at(const Vec<2>& pixel, const std::string& text, const Color& color = colors::black,
+                const Vec<2>& offset = {9, -9}, double size = text_size);
+
   /// A box in the upper right corner (or another) of the area: lines of a mark and what it means.
   struct Entry {
     std::string text;

@@ -44,7 +44,7 @@ std::string picture_name(int step, const std::string& title) {
 void print_step(const Lesson& lesson, int step, std::ostream& out) {
   out << "\n[" << step + 1 << "] " << lesson.step_title(step) << "\n";
   for (const auto& p : lesson.parameters())
-    if (p.step == step && p.kind != Parameter::Kind::point)
+    if (p.step == step && !p.drawn_only && p.kind != Parameter::Kind::point)
       out << "  " << p.name << " = " << value_text(p, p.get()) << "\n";
   out << lesson.numbers(step) << std::flush;
 }

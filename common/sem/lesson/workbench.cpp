@@ -44,6 +44,7 @@ struct Workbench::Impl {
   std::map<std::string, Box<2>> places;
   int dragged = -1;   // parameter
   Vec<2> grab{0, 0};  // from the mouse to the dragged handle, pixels
+  std::optional<Vec<2>> orbit_from;  // the mouse, while it turns the camera
   bool was_down = false, quit = false;
 
   Impl(Lesson& l, std::function<double()> c) : lesson(l), clock(std::move(c)) {
@@ -245,6 +246,23 @@ struct Workbench::Impl {
     act([&] { lesson.change(p, (X * unit).array().round() / unit); });
   }
 
+  /// Beside the handles the mouse turns the camera: half a degree a pixel.
+  void orbit(const Vec<2>& mouse, bool pressed, bool down) {
+    if (pressed && dragged < 0) orbit_from = mouse;
+    if (!down) orbit_from.reset();
+    if (!orbit_from || mouse == *orbit_from) return;
+    const Vec<2> moved = mouse - *orbit_from;
+    orbit_from = mouse;
+    int axis = 0;
+    for (const auto& p : lesson.parameters()) {
+      if (!p.drawn_only) continue;
+      Vec<2> value = p.get();
+      value[0] += (axis == 0 ? -0.5 : 0.5) * moved[axis];
+      if (axis++ == 0) value[0] = std::remainder(value[0], 360);
+      act([&] { lesson.change(p, value); });
+    }
+  }
+
   void draw_picture(bool use_quick) {
     const double start = clock();
     RasterCanvas& canvas = use_quick ? quick : fine;
@@ -286,6 +304,7 @@ struct Workbench::Impl {
     place("picture");
     const bool hovered = ImGui::IsItemHovered();
     drag(input.mouse, input.button && !was_down && hovered, input.button);
+    orbit(input.mouse, input.button && !was_down && hovered, input.button);
     const bool moving = input.button && (dragged >= 0 || ImGui::IsAnyItemActive());
     lesson.set_quick(moving);
     if (!moving && lesson.coarse()) act([&] { lesson.refine(); });

@@ -1,8 +1,9 @@
 #pragma once
-// Plots with axes (sem/plot) in a part of a tutorial's picture: curves, charts, errors of finite
-// differences, bars, and matrices as coloured cells.
+// What tutorials draw in any dimension. Plots with axes (sem/plot) in a part of a picture: curves,
+// charts, errors of finite differences, bars, and matrices as coloured cells; colours, readings.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,20 @@
 #include "sem/plot/plot.h"
 
 namespace sem::tutorial {
+
+inline const Color blue = colors::categorical(0), red = colors::categorical(1),
+                   green = colors::categorical(2);
+/// A = blue, B = red, C = green, ...
+Color part_color(int part);
+
+/// "1, 0.5, 0" of a vector's entries, each rounded().
+std::string list(const Eigen::VectorXd& v, int digits = 4);
+/// "time = 0.5 s" from "time, s" and 0.5.
+std::string reading(const std::string& label, double value);
+
+/// A bar of viridis from 0 to 1 between two texts at a place in pixels, else in the upper left.
+void color_bar(Picture& picture, const std::string& lower, const std::string& upper,
+               const std::optional<Vec<2>>& place = {});
 
 /// Values over their own x, and what they are called.
 struct Trace {
@@ -44,8 +59,6 @@ void draw_columns(Picture& picture, const Axis& x, const Axis& y, const std::vec
 /// An axis of counts from 0 to n, with a tick each.
 Axis count_axis(const std::string& label, int n);
 
-/// Eigenvalues of a symmetric matrix over the largest, from 1e-18 on, for a logarithmic axis.
-Trace spectrum(const std::string& label, const Eigen::MatrixXd& matrix);
 /// A panel with axes: traces in numbered colours, with markers if they have fewer than 12 points.
 /// Without any labels there is no legend.
 struct Chart {

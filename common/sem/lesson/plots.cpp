@@ -1,14 +1,43 @@
-#include "src2d/tutorials/plots.h"
+#include "sem/lesson/plots.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "sem/draw/image.h"
 #include "sem/lesson/numbers.h"
-#include "src2d/tutorials/drawing.h"
-#include "src2d/tutorials/matrices.h"
 
 namespace sem::tutorial {
+
+Color part_color(int part) {
+  static constexpr int order[] = {0, 1, 2, 3, 4, 5, 7};
+  return colors::categorical(order[part % 7]);
+}
+
+std::string list(const Eigen::VectorXd& v, int digits) {
+  std::string text;
+  for (int i = 0; i < v.size(); ++i) text += (i > 0 ? ", " : "") + rounded(v[i], digits);
+  return text;
+}
+
+std::string reading(const std::string& label, double value) {
+  const auto comma = label.rfind(", ");
+  const std::string unit = comma == std::string::npos ? "" : " " + label.substr(comma + 2);
+  return label.substr(0, comma) + " = " + rounded(value, 4) + unit;
+}
+
+void color_bar(Picture& picture, const std::string& lower, const std::string& upper,
+               const std::optional<Vec<2>>& place) {
+  const Vec<2> at = place.value_or(picture.part({0.02, 0.02}, {1, 1}).lower);
+  constexpr double width = 150, height = 16, size = Picture::text_size;
+  Canvas& canvas = picture.canvas();
+  const double left = at[0] + canvas.text_width(lower, size) + 8;
+  for (int i = 0; i < int(width); ++i)
+    canvas.fill_box({{left + i, at[1]}, {left + i + 1, at[1] + height}},
+                    colors::viridis(i / width));
+  const TextStyle style{.size = size, .vertical = TextStyle::Vertical::middle};
+  canvas.text({at[0], at[1] + height / 2}, lower, style);
+  canvas.text({left + width + 8, at[1] + height / 2}, upper, style);
+}
 
 void read_curves(Picture& picture, const Box<2>& rectangle, Panel& panel,
                  const std::vector<Trace>& curves, bool along_x) {
@@ -78,16 +107,6 @@ Axis count_axis(const std::string& label, int n) {
   Axis axis{.label = label, .lower = -0.1, .upper = n + 0.1};
   for (int i = 0; i <= n; ++i) axis.ticks.emplace_back(i, std::to_string(i));
   return axis;
-}
-
-Trace spectrum(const std::string& label, const Eigen::MatrixXd& matrix) {
-  const Eigen::VectorXd values = eigenvalues(matrix);
-  Trace trace{label, {}, {}};
-  for (int i = 0; i < values.size(); ++i) {
-    trace.x.push_back(i + 1);
-    trace.y.push_back(std::max(1e-18, std::abs(values[i]) / values.maxCoeff()));
-  }
-  return trace;
 }
 
 void draw_charts(Picture& picture, const std::vector<Chart>& charts) {
