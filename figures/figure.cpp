@@ -30,7 +30,8 @@ const std::vector<Figure>& all_figures() {
                                               release(),
                                               solid_quadrature(),
                                               limb_slices(),
-                                              torus_origins()};
+                                              torus_origins(),
+                                              beam_parts_3d()};
   return figures;
 }
 
