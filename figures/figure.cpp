@@ -31,7 +31,10 @@ const std::vector<Figure>& all_figures() {
                                               solid_quadrature(),
                                               limb_slices(),
                                               torus_origins(),
-                                              beam_parts_3d()};
+                                              beam_parts_3d(),
+                                              growing_beam(),
+                                              beam_sparsity(),
+                                              twist()};
   return figures;
 }
 

@@ -72,5 +72,8 @@ Figure solid_quadrature();
 Figure limb_slices();
 Figure torus_origins();
 Figure beam_parts_3d();
+Figure growing_beam();
+Figure beam_sparsity();
+Figure twist();
 
 }  // namespace sem::figures
