@@ -34,7 +34,9 @@ const std::vector<Figure>& all_figures() {
                                               beam_parts_3d(),
                                               growing_beam(),
                                               beam_sparsity(),
-                                              twist()};
+                                              twist(),
+                                              gallery_3d(),
+                                              teaser_3d()};
   return figures;
 }
 

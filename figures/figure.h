@@ -75,5 +75,7 @@ Figure beam_parts_3d();
 Figure growing_beam();
 Figure beam_sparsity();
 Figure twist();
+Figure gallery_3d();
+Figure teaser_3d();
 
 }  // namespace sem::figures

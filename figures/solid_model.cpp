@@ -32,6 +32,17 @@ std::optional<State> SolidModel::equilibrium() const {
   return state;
 }
 
+State SolidModel::after(double seconds) {
+  State state = model->initial;
+  Analysis analysis = scene.analysis;
+  analysis.duration = seconds;
+  const auto report = march(
+      model->system, analysis, state, [](const State&, const StepInfo&) {}, model->set_load());
+  if (report.status != Status::converged)
+    throw InputError(scene.name, "analysis", describe(report.status), "steps that converge");
+  return state;
+}
+
 Vec<3> SolidModel::displacement(const State& state, const Vec<3>& X) const {
   return evaluate(map_at<3>(model->discretization, X, false), state.z).col(0) - X;
 }

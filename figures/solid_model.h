@@ -21,6 +21,8 @@ struct SolidModel {
 
   /// Statically loaded from rest, as the scene's analysis says; none if no equilibrium is found.
   std::optional<State> equilibrium() const;
+  /// After so many seconds of the scene's dynamic analysis. Throws InputError if a step fails.
+  State after(double seconds);
   /// Displacement of a rest point, m.
   Vec<3> displacement(const State& state, const Vec<3>& X) const;
 };

@@ -68,6 +68,14 @@ void add_state(Data& data, const std::string& name, const Model<3>& model, const
   }
 }
 
+Box<3> box_of(const Data& data, const std::string& state) {
+  const DataTable& controls = data[state + " controls"];
+  Box<3> box;
+  for (int c = 0; c < controls.n_rows(); ++c)
+    box.include(Vec<3>(controls["x"][c], controls["y"][c], controls["z"][c]));
+  return box;
+}
+
 SolidState solid_state_of(const Data& data, const std::string& body, const std::string& state) {
   SolidState result{surfaces_of(data, body + " "), {}};
   const DataTable& controls = data[state + " controls"];
@@ -77,6 +85,8 @@ SolidState solid_state_of(const Data& data, const std::string& body, const std::
       part.control_points.col(c) << controls["x"][next], controls["y"][next], controls["z"][next];
   for (const auto& run : data[state + " stress"].runs("part"))
     result.stress.push_back(run["von_mises"]);
+  for (const double value : data[state + " stress"]["von_mises"])
+    if (value > result.largest) result.largest = value;
   return result;
 }
 

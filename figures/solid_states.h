@@ -14,10 +14,14 @@ void add_body(Data& data, const std::string& name, const Model<3>& model);
 /// running fastest; at each place the mean of the nearest quadrature points, as in the frames).
 void add_state(Data& data, const std::string& name, const Model<3>& model, const State& state);
 
+/// The box of all control points of a state.
+Box<3> box_of(const Data& data, const std::string& state);
+
 /// What they hold.
 struct SolidState {
   std::vector<Nurbs<2, 3>> parts;
   std::vector<std::vector<double>> stress;  ///< per part, the grid
+  double largest = 0;                       ///< of the stresses, Pa
 };
 SolidState solid_state_of(const Data& data, const std::string& body, const std::string& state);
 

@@ -91,9 +91,13 @@ void draw_view(Panel& panel, SolidView view) {
         render::framing(view.framed, view.direction,
                         {Vec<2>::Constant(margin), Vec<2>(width - margin, height - margin)});
     auto& picture = (*pictures)[{width, height}];
-    if (picture.width == 0)
-      picture =
-          renderer().render(view.scene(pen.point), camera, render::paper_quality(width, height));
+    auto options = render::paper_quality(width, height);
+    if (view.even_light) {
+      options.lighting.ambient = 0.66;
+      options.lighting.key = 0.42;
+      options.lighting.gloss = 0.03;
+    }
+    if (picture.width == 0) picture = renderer().render(view.scene(pen.point), camera, options);
     const Vec<2> corner = box.lower.array().round();
     pen.canvas.image(picture, {corner, corner + Vec<2>(width, height)});
     for (const auto& label : view.labels) draw_label(pen, camera, label);

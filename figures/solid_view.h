@@ -32,6 +32,7 @@ struct SolidView {
   std::vector<Vec<3>> framed;  ///< what the camera has in view
   render::ViewDirection direction = {};
   std::vector<SolidLabel> labels = {};
+  bool even_light = false;  ///< mostly from everywhere: colours can be compared with a colour bar
 };
 
 /// Fills the panel with the view; it has neither axes nor frame.

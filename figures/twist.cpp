@@ -49,7 +49,6 @@ Data compute() {
 render::RenderScene scene_of(const Data& data, int shown, const ColorScale& scale, double point) {
   auto scene = stressed(solid_state_of(data, "beam", std::to_string(shown)), scale, point);
   scene.up = Vec<3>(1, 0, 0);  // it stands on the end that is held
-  scene.ground = 0;
   return scene;
 }
 
@@ -60,25 +59,21 @@ std::vector<double> in_units(std::vector<double> values, double unit) {
 
 void draw(Plot& plot, const Data& data) {
   plot.letters = true;
-  plot.column_shares = {1, 1, 1, 1, 1, 2.4};
+  plot.column_shares = {1, 1, 1, 1, 1, 1.9};
   double largest = 0;
   for (int k = 0; k <= n_shown; ++k)
-    for (const double stress : data[std::to_string(k) + " stress"]["von_mises"])
-      largest = std::max(largest, stress);
-  const ColorScale scale{0, largest / 1e6};
-  Box<3> box;
-  for (int k = 0; k <= n_shown; ++k)
-    for (const auto& part : solid_state_of(data, "beam", std::to_string(k)).parts)
-      for (Eigen::Index c = 0; c < part.control_points.cols(); ++c)
-        box.include(Vec<3>(part.control_points.col(c)));
+    largest = std::max(largest, solid_state_of(data, "beam", std::to_string(k)).largest);
+  const ColorScale scale{0, largest / 1e6}, in_pascal{0, largest};
+  const Box<3> box = box_of(data, "0");  // corners of twisted parts stay within
   for (int k = 0; k <= n_shown; ++k) {
     Panel& panel = plot.panel(0, k, 2, 1);
     panel.title = number_text(360.0 * k / n_shown) + "°";
-    const ColorScale in_pascal{0, largest};
     draw_view(panel,
               {[data, k, in_pascal](double point) { return scene_of(data, k, in_pascal, point); },
                render::corners(box),
-               {.from = {0.35, -1, 0.6}, .up = {1, 0, 0}}});
+               {.from = {0.3, -1, 0.35}, .up = {1, 0, 0}},
+               {},
+               true});
     if (k == n_shown) panel.color_bar(scale, "von Mises stress (MPa)");
   }
   const DataTable& curve = data["curve"];
