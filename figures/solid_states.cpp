@@ -45,10 +45,20 @@ double four_digits(double value) {
 
 }  // namespace
 
-void add_body(Data& data, const std::string& name, const Model<3>& model) {
+std::vector<Nurbs<2, 3>> parts_of(const Model<3>& model, const State& state) {
+  const auto& d = model.discretization;
+  const Points<3> p = control_points(d.unknowns, state.z);
   std::vector<Nurbs<2, 3>> parts;
-  for (const auto& part : model.discretization.boundary.parts) parts.push_back(part.nurbs);
-  add_surfaces(data, parts, name + " ");
+  for (int i = 0; i < d.boundary.n_parts(); ++i) {
+    const int first = d.boundary.first_control[i];
+    parts.push_back(d.boundary.parts[i].nurbs);
+    parts.back().control_points = p.middleCols(first, d.boundary.first_control[i + 1] - first);
+  }
+  return parts;
+}
+
+void add_body(Data& data, const std::string& name, const Model<3>& model) {
+  add_surfaces(data, parts_of(model, model.initial), name + " ");
 }
 
 void add_state(Data& data, const std::string& name, const Model<3>& model, const State& state) {

@@ -7,6 +7,9 @@
 
 namespace sem::figures {
 
+/// The parts of a state.
+std::vector<Nurbs<2, 3>> parts_of(const Model<3>& model, const State& state);
+
 /// Adds the rest shape's tables (add_surfaces), their names led by `name` and a blank.
 void add_body(Data& data, const std::string& name, const Model<3>& model);
 /// Adds a state of a body: tables `NAME controls` (x, y, z, as many as the rest shape has) and
