@@ -46,8 +46,7 @@ void draw(Plot& plot, const Data& data) {
     panel.equal = true;
     panel.pattern(n, n, entries);
     panel.title = number_text(info.value("parts")) + " parts";
-    panel.lines_below = {number_text(info.value("parts")) + " parts, " +
-                         number_text(info.value("unknowns")) +
+    panel.lines_below = {number_text(info.value("unknowns"), 4) +
                          " unknowns: " + number_text(100 * info.value("fill"), 2) + " % filled"};
   }
 }
