@@ -193,7 +193,7 @@ Parts describe(Fields& fields, Ruled) {
   const auto curves = describe_curves(
       fields, 2, "ruled: two, v = 0 and 1; coons: four, v = 0, v = 1, u = 0, u = 1");
   if (!fields.reading()) return {};
-  return {{"ruled", ruled(curves[0], curves[1]), {}}};
+  return {ScenePart<3>{"ruled", ruled(curves[0], curves[1]), {}, {}}};
 }
 
 struct Coons {};
@@ -220,7 +220,7 @@ Parts describe(Fields& fields, Coons) {
     if ((a.first - b.first).norm() > 1e-9 * size || std::abs(a.second - b.second) > 1e-9 * a.second)
       fields.reject("curves", "ends that do not meet",
                     "four curves that meet in four corners, with the same weights there");
-  return {{"coons", coons(ends[0], ends[1], ends[2], ends[3]), {}}};
+  return {ScenePart<3>{"coons", coons(ends[0], ends[1], ends[2], ends[3]), {}, {}}};
 }
 
 template <class Shape>
