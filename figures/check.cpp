@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 
 #include "sem/scene/files.h"
 
@@ -182,19 +183,28 @@ Image stored_picture(const Plot& plot) {
   return image;
 }
 
+Data stored_form(const Figure& figure, const Data& data) {
+  return figure.slow ? thinned(data, std::numeric_limits<int>::max()) : thinned(data);
+}
+
+Data stored_numbers(const Figure& figure, const std::string& references) {
+  const std::string path = references + "/" + figure.name + ".csv";
+  return from_csv(read_file(path), path);
+}
+
 void update_reference(const Figure& figure, const Data& data, const std::string& references) {
   const std::string path = references + "/" + figure.name;
   const Data read = from_csv(to_csv(data), path + ".csv");
-  write_file(path + ".csv", to_csv(thinned(read)));
+  write_file(path + ".csv", to_csv(stored_form(figure, read)));
   write_png(path + ".png", stored_picture(plot_of(figure, read)), dots_per_inch / 4);
 }
 
 std::vector<std::string> check_figure(const Figure& figure, const Data& data,
                                       const std::string& references, const std::string& folder) {
   const std::string path = references + "/" + figure.name, out = folder + "/" + figure.name;
-  const Data stored = from_csv(read_file(path + ".csv"), path + ".csv");
+  const Data stored = stored_numbers(figure, references);
   const Data read = from_csv(to_csv(data), "");  // as update_reference thinned it
-  const Data actual = from_csv(to_csv(thinned(read)), "");
+  const Data actual = from_csv(to_csv(stored_form(figure, read)), "");
   auto differences = compare_numbers(stored, actual, figure);
   const Data drawn = with_stored_measures(read, stored, figure);
   const Image expected = read_png(path + ".png"), picture = stored_picture(plot_of(figure, drawn));

@@ -34,6 +34,12 @@ std::vector<std::string> compare_pictures(const Image& expected, const Image& ac
 /// often as it takes for a PNG below 100 kB.
 Image stored_picture(const Plot& plot);
 
+/// What update_reference stores of a figure's numbers: thinned, but all of them if it is slow.
+Data stored_form(const Figure& figure, const Data& data);
+
+/// The stored reference's numbers. Throws InputError if there is none.
+Data stored_numbers(const Figure& figure, const std::string& references);
+
 /// Writes NAME.csv and NAME.png into the folder of references, replacing what is there.
 void update_reference(const Figure& figure, const Data& data, const std::string& references);
 

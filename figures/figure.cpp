@@ -30,7 +30,13 @@ const std::vector<Figure>& all_figures() {
                                               release(),
                                               solid_quadrature(),
                                               limb_slices(),
-                                              torus_origins()};
+                                              torus_origins(),
+                                              beam_parts_3d(),
+                                              growing_beam(),
+                                              beam_sparsity(),
+                                              twist(),
+                                              gallery_3d(),
+                                              teaser_3d()};
   return figures;
 }
 

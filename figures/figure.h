@@ -8,9 +8,8 @@
 //     thing, units in SI, names of columns that say what they hold. Columns that depend on the
 //     machine end in `_seconds` (or stand in Figure::measured): their values are not compared.
 //  3. draw() sets up panels (sem/plot/plot.h) from the tables and nothing else. The tool has
-//  written
-//     the tables to NAME.csv and read them back. No number is typed in except truths with their
-//     source.
+//     written the tables to NAME.csv and read them back. No number is typed in except truths with
+//     their source.
 //  4. Declare NAME() below, list it in all_figures() (figure.cpp) and in CMakeLists.txt.
 //  5. Look at NAME.png at 100 %, then `sem_figures NAME --update` stores its reference.
 
@@ -32,6 +31,9 @@ struct Figure {
   std::function<Data()> compute;
   std::function<void(Plot&, const Data&)> draw;
   std::vector<std::string> measured = {};  ///< columns that no check compares, besides *_seconds
+  /// compute() takes longer than some 5 s. The stored reference has all numbers, and takes their
+  /// place unless the figure is asked for by name.
+  bool slow = false;
 };
 
 /// All figures, in the order of the gallery.
@@ -69,5 +71,11 @@ Figure release();
 Figure solid_quadrature();
 Figure limb_slices();
 Figure torus_origins();
+Figure beam_parts_3d();
+Figure growing_beam();
+Figure beam_sparsity();
+Figure twist();
+Figure gallery_3d();
+Figure teaser_3d();
 
 }  // namespace sem::figures

@@ -22,8 +22,18 @@ struct Options {
   bool list = false, check = false, update = false;
 };
 
-std::vector<Figure> select(const std::vector<std::string>& names) {
-  if (names.empty()) return all_figures();
+// Those named; or all, the slow ones with the numbers that are stored unless they are to be new.
+std::vector<Figure> select(const Options& options) {
+  const auto& names = options.names;
+  if (names.empty()) {
+    std::vector<Figure> all = all_figures();
+    for (Figure& figure : all)
+      if (figure.slow && !options.update)
+        figure.compute = [figure, from = options.references] {
+          return stored_numbers(figure, from);
+        };
+    return all;
+  }
   std::vector<std::string> known;
   for (const auto& figure : all_figures()) known.push_back(figure.name);
   std::vector<Figure> selected;
@@ -66,7 +76,7 @@ bool check(const std::vector<Figure>& figures, const Options& options) {
 }
 
 bool run(const Options& options) {
-  const auto selected = select(options.names);
+  const auto selected = select(options);
   if (options.list) {
     for (const auto& figure : selected)
       std::printf("%-24s %s\n", figure.name.c_str(), figure.caption.c_str());
@@ -82,7 +92,9 @@ bool run(const Options& options) {
     if (options.update)
       update_reference(figure, from_csv(read_file(path + ".csv"), path + ".csv"),
                        options.references);
-    std::printf("%s.png  %s (%.1f s)\n", path.c_str(), figure.caption.c_str(), watch.seconds());
+    const bool stored = figure.slow && options.names.empty() && !options.update;
+    std::printf("%s.png  %s (%.1f s%s)\n", path.c_str(), figure.caption.c_str(), watch.seconds(),
+                stored ? ", numbers as stored: name it to compute them" : "");
     std::fflush(stdout);
   }
   write_gallery(options.out);

@@ -13,14 +13,17 @@ using baseline::use_exact_gradient;
 /// Which control points the stiffness matrix couples, found from the structure of the operators
 /// alone.
 struct StiffnessPattern {
-  Eigen::MatrixX<bool> elastic, stability;  ///< #unknowns / 2 squared: both components, each alone
+  /// #unknowns / dimension squared: all components, each alone.
+  Eigen::MatrixX<bool> elastic, stability;
+  int dimension;
 
   int size() const { return int(elastic.rows()); }
   bool coupled(int i, int j) const { return elastic(i, j) || stability(i, j); }
   /// Of the matrix on z.
   long n_nonzeros() const;
 };
-StiffnessPattern stiffness_pattern(const Discretization<2>& discretization);
+template <int Dim>
+StiffnessPattern stiffness_pattern(const Discretization<Dim>& discretization);
 
 /// Shortest of several calls, s.
 double fastest_of(int n_calls, const std::function<void()>& call);

@@ -38,15 +38,15 @@ void draw_label(const Pen& pen, const render::Camera& camera, const SolidLabel& 
 
 }  // namespace
 
-void add_surfaces(Data& data, const std::vector<Nurbs<2, 3>>& parts) {
-  auto& surfaces = data.add("surfaces", {"part", "degree_u", "degree_v"});
+void add_surfaces(Data& data, const std::vector<Nurbs<2, 3>>& parts, const std::string& prefix) {
+  auto& surfaces = data.add(prefix + "surfaces", {"part", "degree_u", "degree_v"});
   for (std::size_t i = 0; i < parts.size(); ++i)
     surfaces.add({double(i), double(parts[i].degree[0]), double(parts[i].degree[1])});
-  auto& knots = data.add("knots", {"part", "axis", "knot"});
+  auto& knots = data.add(prefix + "knots", {"part", "axis", "knot"});
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (int axis = 0; axis < 2; ++axis)
       for (const double knot : parts[i].knots[axis]) knots.add({double(i), double(axis), knot});
-  auto& controls = data.add("controls", {"part", "x", "y", "z", "w"});
+  auto& controls = data.add(prefix + "controls", {"part", "x", "y", "z", "w"});
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (Eigen::Index c = 0; c < parts[i].control_points.cols(); ++c) {
       const Vec<3> X = parts[i].control_points.col(c);
@@ -54,10 +54,11 @@ void add_surfaces(Data& data, const std::vector<Nurbs<2, 3>>& parts) {
     }
 }
 
-std::vector<Nurbs<2, 3>> surfaces_of(const Data& data) {
+std::vector<Nurbs<2, 3>> surfaces_of(const Data& data, const std::string& prefix) {
   std::vector<Nurbs<2, 3>> parts;
-  const DataTable& surfaces = data["surfaces"];
-  const auto knots = data["knots"].runs("part"), controls = data["controls"].runs("part");
+  const DataTable& surfaces = data[prefix + "surfaces"];
+  const auto knots = data[prefix + "knots"].runs("part"),
+             controls = data[prefix + "controls"].runs("part");
   for (int i = 0; i < surfaces.n_rows(); ++i) {
     Nurbs<2, 3> part;
     part.degree = {int(surfaces["degree_u"][i]), int(surfaces["degree_v"][i])};
@@ -90,9 +91,13 @@ void draw_view(Panel& panel, SolidView view) {
         render::framing(view.framed, view.direction,
                         {Vec<2>::Constant(margin), Vec<2>(width - margin, height - margin)});
     auto& picture = (*pictures)[{width, height}];
-    if (picture.width == 0)
-      picture =
-          renderer().render(view.scene(pen.point), camera, render::paper_quality(width, height));
+    auto options = render::paper_quality(width, height);
+    if (view.even_light) {
+      options.lighting.ambient = 0.66;
+      options.lighting.key = 0.42;
+      options.lighting.gloss = 0.03;
+    }
+    if (picture.width == 0) picture = renderer().render(view.scene(pen.point), camera, options);
     const Vec<2> corner = box.lower.array().round();
     pen.canvas.image(picture, {corner, corner + Vec<2>(width, height)});
     for (const auto& label : view.labels) draw_label(pen, camera, label);
@@ -100,8 +105,8 @@ void draw_view(Panel& panel, SolidView view) {
 }
 
 std::vector<render::Mesh> meshes_of(const std::vector<Nurbs<2, 3>>& parts,
-                                    const std::function<Color(int part)>& color) {
-  const render::Flatness flatness{control_box(parts).diagonal() / 3000};
+                                    const std::function<Color(int part)>& color, int least_cells) {
+  const render::Flatness flatness{control_box(parts).diagonal() / 3000, least_cells};
   std::vector<render::Mesh> meshes;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     meshes.push_back(tessellate(prepare(parts[i]), flatness));

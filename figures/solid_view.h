@@ -11,10 +11,11 @@
 namespace sem::figures {
 
 /// Adds the tables `surfaces` (part, degree_u, degree_v), `knots` (part, axis, knot) and `controls`
-/// (part, x, y, z, w).
-void add_surfaces(Data& data, const std::vector<Nurbs<2, 3>>& parts);
+/// (part, x, y, z, w), their names led by the prefix.
+void add_surfaces(Data& data, const std::vector<Nurbs<2, 3>>& parts,
+                  const std::string& prefix = "");
 /// What they hold.
-std::vector<Nurbs<2, 3>> surfaces_of(const Data& data);
+std::vector<Nurbs<2, 3>> surfaces_of(const Data& data, const std::string& prefix = "");
 
 /// A text beside a point of the scene; offset in points, y up.
 struct SolidLabel {
@@ -31,14 +32,17 @@ struct SolidView {
   std::vector<Vec<3>> framed;  ///< what the camera has in view
   render::ViewDirection direction = {};
   std::vector<SolidLabel> labels = {};
+  bool even_light = false;  ///< mostly from everywhere: colours can be compared with a colour bar
 };
 
 /// Fills the panel with the view; it has neither axes nor frame.
 void draw_view(Panel& panel, SolidView view);
 
-/// The parts as meshes of a colour each, flat to 1/3000 of their common size.
+/// The parts as meshes of a colour each, flat to 1/3000 of their common size; at least so many
+/// cells along u and v (a power of two), for colours.
 std::vector<render::Mesh> meshes_of(const std::vector<Nurbs<2, 3>>& parts,
-                                    const std::function<Color(int part)>& color);
+                                    const std::function<Color(int part)>& color,
+                                    int least_cells = 1);
 /// Lines along the sides of all parts; `between` lines inside every knot span as well.
 render::Lines lines_of(const std::vector<Nurbs<2, 3>>& parts, int between, const Color& color,
                        double width);

@@ -197,8 +197,8 @@ void Sweep::find_heights() {
     }
   for (const auto& part : component_.boundary.parts)
     if (part.region)
-      for (const Vec<3>& corner : part.region->corners())
-        all.push_back({corner[height_], EndKind::smooth});
+      for (const auto& border : part.region->borders())
+        for (const Vec<3>& end : {border.front(), border.back()}) all.push_back({end[height_], EndKind::smooth});
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
   for (const auto& height : all) {
     if (heights_.empty() || height.value - heights_.back().value > 1e-10 * size_)
