@@ -7,6 +7,7 @@
 
 #include "figures/check.h"
 #include "figures/gallery.h"
+#include "sem/base/stopwatch.h"
 #include "sem/base/error.h"
 #include "sem/scene/fields.h"
 #include "sem/scene/files.h"

@@ -7,7 +7,7 @@
 #include "figures/scene_model.h"
 #include "sem/scene/files.h"
 #include "src2d/baseline/finite_elements.h"
-#include "src2d/bench/timing.h"
+#include "sem/base/timing.h"
 
 namespace sem::figures {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src2d/bench/timing.h"
+#include "sem/base/timing.h"
 
 namespace sem::baseline {
 namespace {

@@ -9,7 +9,7 @@
 #include "sem/nurbs/closest.h"
 #include "sem/nurbs/hits.h"
 #include "textbook.h"
-#include "timing.h"
+#include "sem/base/timing.h"
 
 namespace sem {
 namespace {

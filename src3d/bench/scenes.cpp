@@ -14,7 +14,7 @@
 #include "sem/solve/modes.h"
 #include "src2d/shapes/shape_fields.h"
 #include "src3d/shapes/shape_fields.h"
-#include "timing.h"
+#include "sem/base/timing.h"
 
 namespace sem {
 namespace {

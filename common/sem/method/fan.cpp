@@ -242,7 +242,8 @@ Strands<Dim> strands_to_piece(const FanPiece<Dim>& piece, const FanCore<Dim>& co
 template <int Dim>
 int longest_axis(const FanPiece<Dim>& piece, const FanCore<Dim>& core) {
   const Param<Dim - 1> middle = (piece.lower + piece.upper) / 2;
-  const auto tangents = core.axes.inverse() * derivatives(piece.shape->nurbs, middle, 1).first;
+  const Eigen::Matrix<double, Dim, Dim - 1> tangents =
+      core.axes.inverse() * derivatives(piece.shape->nurbs, middle, 1).first;
   int axis;
   (tangents.colwise().norm().transpose().array() * (piece.upper - piece.lower).array())
       .maxCoeff(&axis);
