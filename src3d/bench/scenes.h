@@ -12,7 +12,8 @@ namespace sem {
 /// What this machine does at best, on one thread, measured.
 struct Machine {
   double flops = 0;  ///< a second, of a product of dense matrices that fit the caches (dense_kernels.h)
-  double bytes = 0;  ///< a second, read and written while copying more than the caches hold
+  double bytes = 0;  ///< a second, read and written while copying more than the caches hold: matrices that stay in
+                     ///< them are faster
 
   /// The time that work takes at least, s.
   double bound(const Work& work) const { return std::max(work.flops / flops, work.bytes / bytes); }
