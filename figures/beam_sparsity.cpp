@@ -8,27 +8,15 @@ namespace {
 
 const int slices[] = {5, 10, 22};
 
-void add_case(DataTable& cases, DataTable& runs, int number, const Discretization<3>& body) {
-  const auto K = stiffness_pattern(body);
-  const double unknowns = 3.0 * K.size();
-  cases.add({double(number), double(body.boundary.n_parts()), unknowns, double(K.n_nonzeros()),
-             K.n_nonzeros() / (unknowns * unknowns)});
-  for (int i = 0; i < K.size(); ++i)
-    for (int j = 0; j < K.size(); ++j) {
-      if (!K.coupled(i, j)) continue;
-      const int first = j;
-      while (j + 1 < K.size() && K.coupled(i, j + 1)) ++j;
-      runs.add({double(number), double(i), double(first), double(j)});
-    }
-}
-
 Data compute() {
   Data data;
   DataTable cases({"case", "parts", "unknowns", "nonzeros", "fill"});
-  // Runs of non-zero columns in the rows of the control points' matrix.
   auto& runs = data.add("runs", {"case", "row", "first", "last"});
-  for (int number = 0; number < 3; ++number)
-    add_case(cases, runs, number, growing_beam_of(slices[number])->model->discretization);
+  for (int number = 0; number < 3; ++number) {
+    const auto beam = growing_beam_of(slices[number]);
+    const auto& body = beam->model->discretization;
+    add_case(cases, runs, number, body.boundary.n_parts(), stiffness_pattern(body));
+  }
   data.add("cases", cases.columns()) = cases;
   return data;
 }
@@ -36,11 +24,7 @@ Data compute() {
 void draw(Plot& plot, const Data& data) {
   for (int number = 0; number < 3; ++number) {
     const DataTable info = data["cases"].where("case", number);
-    const DataTable runs = data["runs"].where("case", number);
-    std::vector<std::pair<int, int>> entries;
-    for (int k = 0; k < runs.n_rows(); ++k)
-      for (int j = int(runs["first"][k]); j <= int(runs["last"][k]); ++j)
-        entries.push_back({int(runs["row"][k]), j});
+    const auto entries = entries_of(data["runs"].where("case", number));
     const int n = int(info.value("unknowns")) / 3;
     Panel& panel = plot.panel(0, number);
     panel.equal = true;

@@ -36,6 +36,25 @@ StiffnessPattern stiffness_pattern(const Discretization<Dim>& d) {
 template StiffnessPattern stiffness_pattern(const Discretization<2>&);
 template StiffnessPattern stiffness_pattern(const Discretization<3>&);
 
+void add_case(DataTable& cases, DataTable& runs, int number, int n_parts, const StiffnessPattern& K) {
+  const double unknowns = double(K.dimension) * K.size();
+  cases.add({double(number), double(n_parts), unknowns, double(K.n_nonzeros()), K.n_nonzeros() / (unknowns * unknowns)});
+  for (int i = 0; i < K.size(); ++i)
+    for (int j = 0; j < K.size(); ++j) {
+      if (!K.coupled(i, j)) continue;
+      const int first = j;
+      while (j + 1 < K.size() && K.coupled(i, j + 1)) ++j;
+      runs.add({double(number), double(i), double(first), double(j)});
+    }
+}
+
+std::vector<std::pair<int, int>> entries_of(const DataTable& runs) {
+  std::vector<std::pair<int, int>> entries;
+  for (int k = 0; k < runs.n_rows(); ++k)
+    for (int j = int(runs["first"][k]); j <= int(runs["last"][k]); ++j) entries.push_back({int(runs["row"][k]), j});
+  return entries;
+}
+
 double fastest_of(int n_calls, const std::function<void()>& call) {
   double fastest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < n_calls; ++i) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "figures/data.h"
 #include "src2d/baseline/scene_model.h"
 
 namespace sem::figures {
@@ -24,6 +25,12 @@ struct StiffnessPattern {
 };
 template <int Dim>
 StiffnessPattern stiffness_pattern(const Discretization<Dim>& discretization);
+
+/// Appends a pattern to tables of the columns case, parts, unknowns, nonzeros, fill, and case, row, first, last: runs of
+/// non-zero columns in the rows of the control points' matrix.
+void add_case(DataTable& cases, DataTable& runs, int number, int n_parts, const StiffnessPattern& K);
+/// Rows and columns of the non-zeros of a case.
+std::vector<std::pair<int, int>> entries_of(const DataTable& runs);
 
 /// Shortest of several calls, s.
 double fastest_of(int n_calls, const std::function<void()>& call);

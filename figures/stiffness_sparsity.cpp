@@ -18,7 +18,6 @@ const int part_counts[] = {16, 48};
 Data compute() {
   Data data;
   DataTable cases({"case", "parts", "unknowns", "nonzeros", "fill"});
-  // Runs of non-zero columns in the rows of the control points' matrix.
   auto& runs = data.add("runs", {"case", "row", "first", "last"});
   for (int row = 0; row < 2; ++row)
     for (int column = 0; column < 3; ++column) {
@@ -30,17 +29,8 @@ Data compute() {
            "probes=[]", "method.quadrature.rays=" + std::to_string(5 * part_counts[row]),
            "method.weights.cutoff=" + std::to_string(methods[column].cutoff),
            "method.origins=\"" + std::string(methods[column].origins) + "\""});
-      const auto K = stiffness_pattern(beam.model->discretization);
-      const double unknowns = 2.0 * K.size();
-      cases.add({double(number), double(beam.model->discretization.boundary.n_parts()), unknowns,
-                 double(K.n_nonzeros()), K.n_nonzeros() / (unknowns * unknowns)});
-      for (int i = 0; i < K.size(); ++i)
-        for (int j = 0; j < K.size(); ++j) {
-          if (!K.coupled(i, j)) continue;
-          const int first = j;
-          while (j + 1 < K.size() && K.coupled(i, j + 1)) ++j;
-          runs.add({double(number), double(i), double(first), double(j)});
-        }
+      const auto& body = beam.model->discretization;
+      add_case(cases, runs, number, body.boundary.n_parts(), stiffness_pattern(body));
     }
   data.add("cases", cases.columns()) = cases;
   return data;
@@ -51,11 +41,7 @@ void draw(Plot& plot, const Data& data) {
     for (int column = 0; column < 3; ++column) {
       const int number = 3 * row + column;
       const DataTable info = data["cases"].where("case", number);
-      const DataTable runs = data["runs"].where("case", number);
-      std::vector<std::pair<int, int>> entries;
-      for (int k = 0; k < runs.n_rows(); ++k)
-        for (int j = int(runs["first"][k]); j <= int(runs["last"][k]); ++j)
-          entries.push_back({int(runs["row"][k]), j});
+      const auto entries = entries_of(data["runs"].where("case", number));
       const int n = int(info.value("unknowns")) / 2;
       Panel& panel = plot.panel(row, column);
       panel.equal = true;

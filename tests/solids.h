@@ -20,6 +20,16 @@ inline Parts<2> polygon(const std::vector<Vec<2>>& points) {
   return parts;
 }
 
+/// One piece, biquadratic; control points and weights are to be set.
+inline Nurbs<2, 3> biquadratic_patch() {
+  Nurbs<2, 3> patch;
+  patch.degree = {2, 2};
+  patch.knots.fill({0, 0, 0, 1, 1, 1});
+  patch.control_points.resize(3, 9);
+  patch.weights.resize(9);
+  return patch;
+}
+
 /// Rational quadratic arc of a circle, less than half a turn.
 inline Nurbs<1, 2> arc(const Vec<2>& center, double radius, double from, double to) {
   const double half = (to - from) / 2, middle = (from + to) / 2;
@@ -88,11 +98,7 @@ inline Parts<3> turned(const Parts<2>& arcs) {
     for (const auto& part : arcs) {
       const auto curve = elevate_degree(part, 0, 2 - part.degree[0]);
       const auto around = arc({0, 0}, 1, M_PI / 2 * k, M_PI / 2 * (k + 1));
-      Nurbs<2, 3> patch;
-      patch.degree = {2, 2};
-      patch.knots.fill({0, 0, 0, 1, 1, 1});
-      patch.control_points.resize(3, 9);
-      patch.weights.resize(9);
+      Nurbs<2, 3> patch = biquadratic_patch();
       for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 3; ++i) {
           const Vec<2> X = curve.control_points.col(j);

@@ -24,11 +24,7 @@ std::vector<CadPart> sphere(double radius) {
   for (const auto& around : test::circle({0, 0}, radius))
     for (int half = 0; half < 2; ++half) {
       const auto up = test::arc({0, 0}, 1, (half - 1) * M_PI / 2, half * M_PI / 2);
-      Nurbs<2, 3> patch;
-      patch.degree = {2, 2};
-      patch.knots.fill({0, 0, 0, 1, 1, 1});
-      patch.control_points.resize(3, 9);
-      patch.weights.resize(9);
+      Nurbs<2, 3> patch = test::biquadratic_patch();
       for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 3; ++i) {
           const Vec<2> across = up.control_points(0, j) * around.control_points.col(i);

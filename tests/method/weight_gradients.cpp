@@ -137,11 +137,7 @@ TEST_CASE("sided weights at a pole: the normal is its limit, and the gradient is
   for (const double bowl : {0.0, 0.003}) {
     CAPTURE(bowl);
     const auto quarter = test::arc({0, 0}, 1, 0, M_PI / 2);
-    Nurbs<2, 3> patch;
-    patch.degree = {2, 2};
-    patch.knots.fill({0, 0, 0, 1, 1, 1});
-    patch.control_points.resize(3, 9);
-    patch.weights.resize(9);
+    Nurbs<2, 3> patch = test::biquadratic_patch();
     for (int j = 0; j < 3; ++j)
       for (int i = 0; i < 3; ++i) {
         const Vec<2> X = 0.5 * i * quarter.control_points.col(j);
