@@ -98,4 +98,15 @@ template <int Dim>
 void distance_weight_gradients(const Boundary<Dim>& boundary, const Points<Dim>& position,
                                const Distances<Dim>& distances, DistanceWeights<Dim>& theta);
 
+/// h(side) of a sided weight and its gradient, 1/m.
+template <int Dim>
+struct SideStep {
+  double value;
+  Vec<Dim> gradient;
+};
+/// h of a pair of `distances` (sided), which belongs to `part` and X; the gradient is zero on the part.
+template <int Dim>
+SideStep<Dim> side_at(const PreparedNurbs<Dim - 1, Dim>& part, const Distances<Dim>& distances, int pair,
+                      const Vec<Dim>& X, double ramp);
+
 }  // namespace sem

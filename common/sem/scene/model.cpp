@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -61,6 +62,7 @@ class Builder {
     }
     MethodOptions options = scene_.method;
     options.stiffness = part_stiffness();
+    options.condition = boundary_conditions();
     model_->discretization = discretize<Dim>(solids, options, trims);
     model_->cost = model_->discretization.cost;
   }
@@ -74,6 +76,27 @@ class Builder {
       alike &= i == 0 || parts_[i].solid != parts_[i - 1].solid || stiffness[i] == stiffness[i - 1];
     }
     return alike ? std::vector<double>() : stiffness;
+  }
+
+  // Which pins and boundary loads act on all of a part: parts with the same number have the same.
+  std::vector<int> boundary_conditions() const {
+    Box<Dim> box;
+    for (const auto& solid : scene_.solids)
+      for (const auto& part : solid.parts)
+        for (const auto& p : part.shape.control_points.colwise()) box.include(Vec<Dim>(p));
+    const double tolerance = 1e-9 * box.diagonal();
+    std::map<std::vector<bool>, int> number;
+    std::vector<int> condition;
+    for (const auto& solid : scene_.solids)
+      for (const auto& part : solid.parts) {
+        const PartInfo& info = parts_[condition.size()];
+        std::vector<bool> acting;
+        for (const auto& pin : scene_.pins) acting.push_back(selects_all(pin.where, info, part.shape, tolerance));
+        for (const auto& load : scene_.boundary_loads)
+          acting.push_back(selects_all(load.where, info, part.shape, tolerance));
+        condition.push_back(number.emplace(acting, int(number.size())).first->second);
+      }
+    return condition;
   }
 
   // The solid's material, unless the part in whose region the point lies has its own.
@@ -91,7 +114,7 @@ class Builder {
     for (int k = 0; k < d.quadrature.size(); ++k) {
       const int begin = d.weights.begin[k];
       int n = d.weights.begin[k + 1] - begin;
-      // Corner patches have no material of their own; they come last.
+      // Patches at joints have no material of their own; they come last.
       while (n > 0 && d.weights.part[begin + n - 1] >= d.boundary.n_parts()) --n;
       const int part = n == 0 ? -1 : part_of_region(d.options.stiffness, d.boundary.solid, &d.weights.part[begin], &d.weights.w[begin], n);
       const int m = part >= 0 && own[part] >= 0 ? own[part] : d.quadrature.solid[k];
