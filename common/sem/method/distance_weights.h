@@ -20,7 +20,7 @@ struct WeightOptions {
   DistanceWeight variant = DistanceWeight::published;
   double cutoff = 1;               ///< alpha, m
   std::optional<double> sparsity = {};  ///< T in (0, 1]: alpha so that this share of the weights is non-zero
-  double side_ramp = 0.2;  ///< s in (0, 1]: the sided weight falls to 0 where the cosine to the inner normal is -s
+  double side_ramp = 0.5;  ///< s in (0, 1]: the sided weight falls to 0 where the cosine to the inner normal is -s
 };
 
 /// What the weights of one part at one point are made of; alpha-free. Stored
