@@ -78,22 +78,37 @@ class Builder {
     return alike ? std::vector<double>() : stiffness;
   }
 
-  // Which pins and boundary loads act on all of a part: parts with the same number have the same.
+  // What pins and boundary loads do to a part that they act on as a whole: parts with the same number are held, led
+  // and loaded alike.
   std::vector<int> boundary_conditions() const {
     Box<Dim> box;
     for (const auto& solid : scene_.solids)
       for (const auto& part : solid.parts)
         for (const auto& p : part.shape.control_points.colwise()) box.include(Vec<Dim>(p));
     const double tolerance = 1e-9 * box.diagonal();
-    std::map<std::vector<bool>, int> number;
+    std::map<std::vector<double>, int> number;
     std::vector<int> condition;
     for (const auto& solid : scene_.solids)
       for (const auto& part : solid.parts) {
         const PartInfo& info = parts_[condition.size()];
-        std::vector<bool> acting;
-        for (const auto& pin : scene_.pins) acting.push_back(selects_all(pin.where, info, part.shape, tolerance));
-        for (const auto& load : scene_.boundary_loads)
-          acting.push_back(selects_all(load.where, info, part.shape, tolerance));
+        std::vector<double> acting;
+        for (int a = 0; a < Dim; ++a)
+          for (const auto& pin : scene_.pins)
+            if (pin.axes[a] && selects_all(pin.where, info, part.shape, tolerance)) {
+              acting.push_back(a);
+              for (const auto& list : {pin.displacement, pin.center}) acting.insert(acting.end(), list.begin(), list.end());
+              acting.insert(acting.end(), pin.rotation.begin(), pin.rotation.end());
+            }
+        Vec<Dim + 1> load = Vec<Dim + 1>::Zero(), swing = load;
+        for (const auto& one : scene_.boundary_loads)
+          if (selects_all(one.where, info, part.shape, tolerance)) {
+            Vec<Dim + 1> both;
+            both << one.traction, one.pressure;
+            load += both;
+            swing += one.oscillation.amplitude * both;
+          }
+        acting.insert(acting.end(), load.begin(), load.end());
+        acting.insert(acting.end(), swing.begin(), swing.end());
         condition.push_back(number.emplace(acting, int(number.size())).first->second);
       }
     return condition;
