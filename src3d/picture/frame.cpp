@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <optional>
 
 #include "sem/draw/raster.h"
@@ -24,6 +26,25 @@ Vec<3> up_of(const Scene<3>& scene) {
   return scene.gravity.norm() > 0 ? Vec<3>(-scene.gravity.normalized()) : Vec<3>(0, 0, 1);
 }
 
+double lowest(const std::vector<Vec<3>>& points, const Vec<3>& up) {
+  double height = std::numeric_limits<double>::infinity();
+  for (const auto& X : points) height = std::min(height, up.dot(X));
+  return height;
+}
+
+// Where a control point's basis function has its middle: the means of its knots (Greville), u and
+// v.
+Vec<2> middle_parameters(const Nurbs<2, 3>& nurbs, int control) {
+  const int n_u = int(nurbs.knots[0].size()) - nurbs.degree[0] - 1, index[] = {control % n_u, control / n_u};
+  Vec<2> u;
+  for (int a = 0; a < 2; ++a) {
+    const int p = nurbs.degree[a];
+    const auto first = nurbs.knots[a].begin() + index[a] + 1;
+    u[a] = std::accumulate(first, first + p, 0.0) / p;
+  }
+  return u;
+}
+
 // From the front, a little from the right and from above.
 render::ViewDirection direction_of(const Vec<3>& up) {
   const Vec<3> axis = std::abs(up[0]) < 0.9 ? Vec<3>(1, 0, 0) : Vec<3>(0, 1, 0);
@@ -37,15 +58,19 @@ render::ViewDirection direction_of(const Vec<3>& up) {
 struct SolidPainter::Setup {
   render::Renderer renderer;
   Vec<3> up;
-  Box<3> box;
+  Box<3> box;                            // visited, a little wider: of what the camera frames
+  double ground;                         // height along `up` of the lowest place visited, m
   double stress_limit;                   // Pa, 0: the frame's own
   std::vector<Points<3>> points;         // #solids: quadrature points at rest
   std::vector<std::vector<int>> number;  // #solids: which ones
 
   Setup(const Scene<3>& scene, const Model<3>& model)
       : up(up_of(scene)),
-        box(motion_box(scene, model)),
+        box(visited_box(scene, model)),
+        ground(lowest(render::corners(box), up)),
         stress_limit(sem::stress_limit(scene, model)) {
+    const Vec<3> margin = Vec<3>::Constant(0.03 * model.discretization.boundary.box.diagonal());
+    box = {box.lower - margin, box.upper + margin};
     const auto& d = model.discretization;
     number.resize(d.boundary.n_solids);
     for (int k = 0; k < d.quadrature.size(); ++k) number[d.quadrature.solid[k]].push_back(k);
@@ -79,9 +104,7 @@ class SolidPainter::Drawing {
     const Vec<2> size = area_.upper - area_.lower;
     const int width = int(std::lround(size[0])), height = int(std::lround(size[1]));
     const auto corners = render::corners(setup_.box);
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const auto& corner : corners) lowest = std::min(lowest, setup_.up.dot(corner));
-    result_.ground = lowest;
+    result_.ground = std::min(setup_.ground, lowest_now());
     const auto camera =
         render::framing(corners, direction_, Box<2>{Vec<2>::Zero(), Vec<2>(width, height)});
     auto options = render::frame_quality(width, height);
@@ -108,6 +131,14 @@ class SolidPainter::Drawing {
     return prepared;
   }
 
+  // Height of the body's lowest drawn point.
+  double lowest_now() const {
+    double height = std::numeric_limits<double>::infinity();
+    for (const auto& mesh : result_.meshes)
+      height = std::min(height, lowest(mesh.position, setup_.up));
+    return height;
+  }
+
   // Adds the parts. Returns where the colour scale ends.
   double surfaces() {
     const Eigen::VectorXd stress = von_mises(model_, state_.z);
@@ -117,7 +148,8 @@ class SolidPainter::Drawing {
     render::Lines ends{{}, picture::ink, 1.2 * unit_},
         rest{{}, {0.7, 0.7, 0.72}, 0.7 * unit_, 0.25};
     for (int i = 0; i < b.n_parts(); ++i) {
-      const auto deformed = part(i, p_);
+      deformed_.push_back(part(i, p_));
+      const auto& deformed = deformed_.back();
       render::Mesh mesh = tessellate(deformed, flatness_);
       mesh.color = picture::tint(b.solid[i]).with_alpha(1);
       if (limit > 0) mesh.colors = colors_of(mesh, i, stress, limit);
@@ -145,17 +177,21 @@ class SolidPainter::Drawing {
   }
 
   void pins() {
-    const int n_controls = model_.discretization.boundary.n_controls();
+    const auto& b = model_.discretization.boundary;
+    const int n_controls = b.n_controls();
     std::vector<std::array<bool, 3>> held(n_controls, {false, false, false});
     for (std::size_t i = 0; i < model_.held.size(); ++i)
       for (const int c : model_.held[i].controls)
         for (int a = 0; a < 3; ++a) held[c][a] |= scene_.pins[i].axes[a];
     const double size = 0.006 * setup_.box.diagonal();
     render::Lines bars{{}, picture::pin_color, 2.5 * unit_, 0.3};
+    int i = 0;
     for (int c = 0; c < n_controls; ++c) {
+      while (c >= b.first_control[i + 1]) ++i;
       const int n_held = held[c][0] + held[c][1] + held[c][2];
       if (n_held == 0) continue;
-      const Vec<3> X = p_.col(c);
+      const Vec<3> X =
+          point(deformed_[i], middle_parameters(b.parts[i].nurbs, c - b.first_control[i]));
       result_.spheres.push_back({X, size, picture::pin_color});
       for (int a = 0; a < 3; ++a) {
         if (held[c][a]) continue;
@@ -193,6 +229,7 @@ class SolidPainter::Drawing {
   const Box<2> area_;  // of the world, in pixels
   const render::Flatness flatness_;
   render::RenderScene result_;
+  std::vector<PreparedNurbs<2, 3>> deformed_;  // the parts
   StressScale scale_;
 };
 

@@ -5,6 +5,7 @@
 #include "sem/picture/scales.h"
 #include "sem/scene/builtin.h"
 #include "sem/scene/read_scene.h"
+#include "sem/solve/integrators.h"
 #include "src3d/picture/frame.h"
 #include "src3d/picture/surface_stress.h"
 #include "src3d/shapes/shape_fields.h"
@@ -57,6 +58,33 @@ TEST_CASE("3D frames have room for a beam that falls as far as it is long, not f
   CHECK(box.lower[2] > -7);
   CHECK(box.upper[2] < 2);
   CHECK(expected_stress(*model) > 1e4);
+}
+
+TEST_CASE("the box visited: under small loads that come and go it is that of the run itself") {
+  auto overrides = coarse;
+  overrides.insert(overrides.end(),
+                   {"gravity=[0,0,-0.01]", "analysis.time_step=0.02", "analysis.duration=2",
+                    R"(loads=[{"type":"body","force":[0,8,0],"amplitude":3,"period":0.7}])"});
+  const auto scene = beam(overrides);
+  const auto model = build_model(scene, "beam");
+  const Box<3> expected = visited_box(scene, *model), rest = model->discretization.boundary.box;
+  Box<3> box = rest;
+  State state = model->initial;
+  const auto set_load = model->set_load();
+  TimeStepper stepper(model->system, 0.02, Integrator::linearly_implicit_euler);
+  for (int step = 1; step <= 100; ++step) {
+    set_load(0.02 * step);
+    REQUIRE(stepper.step(state).status == Status::converged);
+    const Points<3> p = control_points(model->discretization.unknowns, state.z);
+    for (int c = 0; c < p.cols(); ++c) box.include(Vec<3>(p.col(c)));
+  }
+  for (const int a : {1, 2}) {
+    CAPTURE(a);
+    const double down = rest.lower[a] - box.lower[a], up = box.upper[a] - rest.upper[a];
+    REQUIRE(std::max(down, up) > 0.005);
+    CHECK(std::abs(expected.lower[a] - box.lower[a]) < 0.02 * std::max(down, up));
+    CHECK(std::abs(expected.upper[a] - box.upper[a]) < 0.02 * std::max(down, up));
+  }
 }
 
 TEST_CASE("von Mises stress in space: a pull along x gives its axial stress") {

@@ -36,7 +36,6 @@ Box<Dim> ballistic_box(const Scene<Dim>& scene, const Box<Dim>& rest) {
     const Vec<Dim> path = t * scene.velocity + t * t / 2 * scene.gravity;
     box.include(Box<Dim>{rest.lower + path, rest.upper + path});
   }
-  enlarge(box, 0.12 * rest.diagonal());
   return box;
 }
 
@@ -53,14 +52,14 @@ Box<Dim> swing_box(const Scene<Dim>& scene, const Box<Dim>& rest, const Vec<Dim>
   const double reach = reach_from(pivot, rest);
   Box<Dim> box{pivot, pivot};
   enlarge(box, 1.2 * reach);
-  const double room = 0.08 * rest.diagonal(), stretched = 2.6 * reach;
+  const double stretched = 2.6 * reach;
   for (int a = 0; a < Dim; ++a) {
     if (std::abs(scene.gravity[a]) < 0.9 * scene.gravity.norm()) continue;
     if (scene.gravity[a] < 0) {
       box.lower[a] = pivot[a] - stretched;
-      box.upper[a] = rest.upper[a] + room;
+      box.upper[a] = rest.upper[a];
     } else if (scene.gravity[a] > 0) {
-      box.lower[a] = rest.lower[a] - room;
+      box.lower[a] = rest.lower[a];
       box.upper[a] = pivot[a] + stretched;
     }
   }
@@ -119,45 +118,72 @@ VectorXd linear_displacement(const Model<Dim>& model) {
   return u + residual;
 }
 
-// Room for twice the linear answer on every side, as far as the body reaches from its pins.
+// The control points of rest + u, no farther from the pivot than the body reaches at rest: a linear
+// answer stretches what turns.
 template <int Dim>
-Box<Dim> sagging_box(const Model<Dim>& model, const Box<Dim>& rest, const Vec<Dim>& pivot) {
-  const VectorXd u = linear_displacement(model);
-  const Points<Dim> moved = control_points(model.discretization.unknowns,
-                                           VectorXd(model.system.rest + u)),
-                    displacement = moved - rest_controls(model.discretization.boundary);
-  const double reach = 1.1 * reach_from(pivot, rest);
-  Box<Dim> box = rest;
-  for (int a = 0; a < Dim; ++a) {
-    const double down = 2 * displacement.row(a).minCoeff(), up = 2 * displacement.row(a).maxCoeff();
-    if (down < 0)
-      box.lower[a] = std::max(rest.lower[a] + down, std::min(rest.lower[a], pivot[a] - reach));
-    if (up > 0)
-      box.upper[a] = std::min(rest.upper[a] + up, std::max(rest.upper[a], pivot[a] + reach));
+void include_moved(Box<Dim>& box, const Model<Dim>& model, const VectorXd& u,
+                   const Box<Dim>& reached) {
+  const Points<Dim> p =
+      control_points(model.discretization.unknowns, VectorXd(model.system.rest + u));
+  for (int c = 0; c < p.cols(); ++c)
+    box.include(Vec<Dim>(Vec<Dim>(p.col(c)).cwiseMax(reached.lower).cwiseMin(reached.upper)));
+}
+
+// The box that a run of the linearised body visits, at most 200 steps of implicit Euler: with K the
+// stiffness at rest, M/h^2 = A - K and d the increment of a step, A d = f(t) - K u + (A - K)
+// d_before.
+template <int Dim>
+void include_linear_run(Box<Dim>& box, const Scene<Dim>& scene, const Model<Dim>& model,
+                        const Box<Dim>& reached) {
+  const System& system = model.system;
+  const int n_steps =
+      int(std::clamp(scene.analysis.duration / scene.analysis.time_step, 1.0, 200.0));
+  const double h = scene.analysis.duration / n_steps;
+  SymmetricMatrix K = system.potential->new_hessian();
+  system.potential->hessian(system.rest, true, K);
+  SymmetricMatrix A = K;
+  A.add(1 / (h * h), system.mass);
+  SparseCholesky cholesky(A.plan(), A.components(), system.free);
+  if (!cholesky.compute(A)) return;
+  VectorXd u = VectorXd::Zero(system.size()), d = u;
+  for (const int i : system.free) d[i] = h * model.initial.v[i];
+  for (int step = 1; step <= n_steps; ++step) {
+    d = A * d - K * (u + d);
+    d += model.load.periodic.empty() ? system.load : model.load.at(step * h);
+    cholesky.solve_in_place(d);
+    u += d;
+    include_moved(box, model, u, reached);
   }
-  return box;
 }
 
 }  // namespace
 
 template <int Dim>
-Box<Dim> motion_box(const Scene<Dim>& scene, const Model<Dim>& model) {
-  Box<Dim> rest = model.discretization.boundary.box;
-  const double size = rest.diagonal();
-  if (scene.analysis.kind != AnalysisKind::dynamics) {
-    const Points<Dim> target = control_points(model.discretization.unknowns, model.target);
-    for (int c = 0; c < target.cols(); ++c) rest.include(Vec<Dim>(target.col(c)));
-    enlarge(rest, 0.12 * size);
-    return rest;
-  }
+Box<Dim> visited_box(const Scene<Dim>& scene, const Model<Dim>& model) {
+  Box<Dim> box = model.discretization.boundary.box;
   const auto points = pinned_points(model);
-  if (points.empty()) return ballistic_box(scene, rest);
+  if (scene.analysis.kind == AnalysisKind::modes) return box;
+  const bool dynamic = scene.analysis.kind == AnalysisKind::dynamics;
+  if (points.empty()) return dynamic ? ballistic_box(scene, box) : box;
   Box<Dim> held;
   for (const auto& x : points) held.include(x);
   const Vec<Dim> pivot = (held.lower + held.upper) / 2;
-  if (held.diagonal() < 0.05 * size) return swing_box(scene, rest, pivot);
-  Box<Dim> box = sagging_box(model, rest, pivot);
-  enlarge(box, 0.15 * size);
+  if (dynamic && held.diagonal() < 0.05 * box.diagonal()) return swing_box(scene, box, pivot);
+  const Points<Dim> target = control_points(model.discretization.unknowns, model.target);
+  for (int c = 0; c < target.cols(); ++c) box.include(Vec<Dim>(target.col(c)));
+  Box<Dim> reached{pivot, pivot};
+  enlarge(reached, 1.1 * reach_from(pivot, box));
+  if (dynamic)
+    include_linear_run(box, scene, model, reached);
+  else
+    include_moved(box, model, linear_displacement(model), reached);
+  return box;
+}
+
+template <int Dim>
+Box<Dim> motion_box(const Scene<Dim>& scene, const Model<Dim>& model) {
+  Box<Dim> box = visited_box(scene, model);
+  enlarge(box, 0.12 * model.discretization.boundary.box.diagonal());
   return box;
 }
 
@@ -204,8 +230,10 @@ double stress_limit(const Scene<Dim>& scene, const Model<Dim>& model) {
 StressScale stress_scale(const Eigen::VectorXd& stress, double limit) {
   StressScale scale{limit};
   for (const double value : stress) {
-    if (std::isnan(value)) ++scale.n_inverted;
-    else scale.largest = std::max(scale.largest, value);
+    if (std::isnan(value))
+      ++scale.n_inverted;
+    else
+      scale.largest = std::max(scale.largest, value);
   }
   if (!(limit > 0) && scale.largest > 0) scale.limit = round_up(scale.largest);
   return scale;
@@ -218,10 +246,11 @@ double round_up(double value) {
   return 10 * decade;
 }
 
-#define SEM_INSTANTIATE(Dim)                                               \
-  template Box<Dim> motion_box<Dim>(const Scene<Dim>&, const Model<Dim>&); \
-  template double expected_stress<Dim>(const Model<Dim>&);                 \
-  template VectorXd von_mises<Dim>(const Model<Dim>&, const VectorXd&);    \
+#define SEM_INSTANTIATE(Dim)                                                \
+  template Box<Dim> visited_box<Dim>(const Scene<Dim>&, const Model<Dim>&); \
+  template Box<Dim> motion_box<Dim>(const Scene<Dim>&, const Model<Dim>&);  \
+  template double expected_stress<Dim>(const Model<Dim>&);                  \
+  template VectorXd von_mises<Dim>(const Model<Dim>&, const VectorXd&);     \
   template double stress_limit<Dim>(const Scene<Dim>&, const Model<Dim>&);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)

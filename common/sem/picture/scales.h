@@ -6,10 +6,16 @@
 
 namespace sem {
 
-/// Room for the motion to be expected, m. Statics and modes: the rest shape with a margin. Dynamics
-/// without pins: the rest shape along its ballistic path. With pins that hold a region:
-/// twice the linear static displacement, as far as the body reaches from its pins, and a margin. Hung
-/// by a point: all that it can reach when it turns about it, no higher than at rest.
+/// The box that the body's control points are expected to visit, m. Modes: the rest shape. Statics:
+/// also the linear answer and where pins are led. Dynamics without pins: the rest shape along its
+/// ballistic path. With pins that hold a region: what a run of the linearised body visits, at most
+/// 200 steps of it. Hung by a point: all that it can reach when it turns about it, no higher than
+/// at rest, and farther down. Linear answers end a tenth beyond what the body reaches from its
+/// pins.
+template <int Dim>
+Box<Dim> visited_box(const Scene<Dim>& scene, const Model<Dim>& model);
+
+/// The visited_box with a margin, 12 % of the rest shape's diagonal on every side.
 template <int Dim>
 Box<Dim> motion_box(const Scene<Dim>& scene, const Model<Dim>& model);
 
@@ -39,7 +45,8 @@ struct StressScale {
   double largest = 0;  ///< Pa, of this frame
   int n_inverted = 0;  ///< points without a stress
 };
-/// Of the stresses of one frame; `limit`: that of all frames, 0: a round number from this one's largest.
+/// Of the stresses of one frame; `limit`: that of all frames, 0: a round number from this one's
+/// largest.
 StressScale stress_scale(const Eigen::VectorXd& stress, double limit);
 
 /// A round number not below the value, which is > 0: 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of
