@@ -185,6 +185,8 @@ NewtonReport Newton::minimize(const IncrementProblem& problem, const NewtonOptio
   const double start_force = reference_force(problem);
   double largest_force = start_force;
   bool moving = pins_move(problem);
+  double last_norm = 0;
+  bool rounding = false;
 
   for (;;) {
     const double norm = residual_.norm();
@@ -192,7 +194,10 @@ NewtonReport Newton::minimize(const IncrementProblem& problem, const NewtonOptio
     largest_force = std::max(largest_force, gradient_.norm());
     report.residual = norm > 0 ? norm / report.reference_force : 0;
     if (!moving && report.residual <= options.tolerance) break;
-    if (!moving && report.iterations > 0 && is_rounding(problem, u, norm, largest_force)) break;
+    // In statics, where no inertia bounds what forces that small move, on as long as it helps.
+    rounding = !moving && report.iterations > 0 && is_rounding(problem, u, norm, largest_force);
+    if (rounding && (problem.inertia > 0 || norm > last_norm / 2)) break;
+    last_norm = norm;
     if (report.iterations == options.max_iterations) {
       report.status = Status::max_iterations;
       break;
@@ -205,6 +210,7 @@ NewtonReport Newton::minimize(const IncrementProblem& problem, const NewtonOptio
       moving = false;
       if (!predict(problem, u)) report.status = Status::not_finite;
     } else if (!line_search(problem, u)) {
+      if (rounding) break;
       report.status = Status::line_search_failed;
     }
     if (report.status != Status::converged) break;
