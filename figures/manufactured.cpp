@@ -8,7 +8,7 @@ namespace {
 
 const int part_counts[] = {1, 2, 4};
 
-baseline::ManufacturedError solve(int shape, int m, int degree, DistanceWeight weight) {
+ManufacturedError solve(int shape, int m, int degree, DistanceWeight weight) {
   MethodOptions method;
   method.formulation = Formulation::condensed;
   method.weights.variant = weight;
@@ -16,7 +16,7 @@ baseline::ManufacturedError solve(int shape, int m, int degree, DistanceWeight w
   method.projection.degree = degree;
   method.interior_rule.rule = InteriorRule::resolved;
   method.interior_rule.weight_tolerance = weight == DistanceWeight::sided ? 1e-4 : 3e-2;
-  return baseline::solve_manufactured(baseline::manufactured_body(shape == 0, m), method);
+  return solve_manufactured(baseline::manufactured_body(shape == 0, m), method);
 }
 
 Data compute() {

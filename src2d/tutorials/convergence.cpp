@@ -10,7 +10,7 @@
 namespace sem::tutorial {
 namespace {
 
-const baseline::Manufactured exact;
+const Manufactured<2> exact;
 
 MethodOptions method_of(Rung rung, const AttemptOptions& options) {
   MethodOptions method;
@@ -88,7 +88,7 @@ Attempt attempt(Rung rung, const AttemptOptions& options) {
   return result;
 }
 
-baseline::ManufacturedSolution nearest_gradient(const Attempt& attempt) {
+ManufacturedSolution nearest_gradient(const Attempt& attempt) {
   const auto& model = *attempt.model;
   const auto& d = model.discretization;
   SymmetricMatrix little;  // of the stability term, for motions without energy

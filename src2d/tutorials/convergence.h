@@ -43,13 +43,13 @@ struct AttemptOptions {
 struct Attempt {
   Rung rung;
   std::unique_ptr<Model<2>> model;
-  baseline::ManufacturedSolution answer;
+  ManufacturedSolution answer;
   const Discretization<2>& body() const { return model->discretization; }
 };
 Attempt attempt(Rung rung, const AttemptOptions& options);
 
 /// The u whose F is nearest to du/dX of the exact solution in the energy norm.
-baseline::ManufacturedSolution nearest_gradient(const Attempt& attempt);
+ManufacturedSolution nearest_gradient(const Attempt& attempt);
 
 /// Displacement of the map at rest points, m, for u of z.
 Points<2> displacement(const Attempt& attempt, const VectorXd& u, const Points<2>& X);

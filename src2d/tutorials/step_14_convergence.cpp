@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
       });
 
   // [3] The F nearest to I + grad u comes with an x that is far from X + u. Forces act on x.
-  baseline::ManufacturedSolution nearest;
+  ManufacturedSolution nearest;
   double off = 0;
   lesson.step(
       "First reason: F is not the gradient of x",
