@@ -32,7 +32,7 @@ void add_body_case(std::vector<Case>& cases, const std::string& group, const Bod
                      [=] { return run_body_case<2>(one, formulation); }});
   if (!has_prism(one.shape)) return;
   for (const Formulation formulation : both_formulations)
-    cases.push_back({group, one.name, variant<3>(formulation), one.rule, false,
+    cases.push_back({group, one.name, variant<3>(formulation), one.rule, one.fast_3d,
                      [=] { return run_body_case<3>(one, formulation); }});
 }
 

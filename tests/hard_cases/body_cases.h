@@ -16,7 +16,8 @@ struct BodyCase {
   PlaneShape shape;
   Rule rule = Rule::must_solve;
   Bounds bounds = {};
-  bool fast = false;
+  bool fast = false;     ///< in 2D
+  bool fast_3d = false;
   std::function<void(MethodOptions&)> method = {};
   std::tuple<BodyChange<2>, BodyChange<3>> change = {};
   bool as_unchanged = false;  ///< the displacement by size has to be that of the body before the change

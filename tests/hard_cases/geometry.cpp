@@ -228,7 +228,7 @@ std::vector<BodyCase> shape_cases() {
   cases.push_back({.name = "cusp at a joint", .shape = ruled(monomial(2, -1, 0), monomial(2, 1, 0), 2.0 / 3), .fast = true});
   cases.push_back({.name = "cusp inside a part", .shape = ruled(straight({0, 0}, {1, 0}, 3), bezier({{0, 0}, {1, 1}, {0, 1}, {1, 0}}), 0.3)});
   cases.back().bounds.volume = 1e-4;  // in 3D rays are not split at the cusp's edge
-  cases.push_back({.name = "self-crossing", .shape = bow_tie(), .fast = true});
+  cases.push_back({.name = "self-crossing", .shape = bow_tie(), .fast = true, .fast_3d = true});
   cases.push_back({.name = "a side twice", .shape = side_twice()});
   cases.push_back({.name = "coincident solids", .shape = together(square, square, 1, false), .fast = true});
   cases.push_back({.name = "solids share a side", .shape = together(square, rectangle({1, 0}, {2, 1}), 2, false)});

@@ -143,23 +143,6 @@ TEST_CASE("sided weights are continuous up to the boundary and around a re-entra
   CHECK(w.colwise().maxCoeff().maxCoeff() > 0.4);
 }
 
-TEST_CASE("corner patches stand at re-entrant corners alone and do not reach across a gap") {
-  const auto l = make_boundary<2>({ell()});
-  const auto corners = find_corners<2>(l, find_loops(l), 0.8, 2);
-  REQUIRE(corners.size() == 2);
-  CHECK(corners[0].center == Vec<2>(1, 1));
-  CHECK(corners[0].radius == 0.8);
-  CHECK(corners[1].radius == doctest::Approx(0.24));
-  const auto convex = make_boundary<2>({test::unit_box<2>()});
-  CHECK(find_corners<2>(convex, find_loops(convex), 0.8, 2).empty());
-  // A U whose gap is 0.2 wide.
-  const auto u = make_boundary<2>(
-      {test::polygon({{0, 0}, {2.2, 0}, {2.2, 3}, {1.2, 3}, {1.2, 1}, {1, 1}, {1, 3}, {0, 3}})});
-  const auto gap = find_corners<2>(u, find_loops(u), 0.8, 1);
-  REQUIRE(gap.size() == 2);
-  for (const auto& corner : gap) CHECK(corner.radius == doctest::Approx(0.2));
-}
-
 TEST_CASE("limbs that a gap separates do not share sided weights, but see each other by distance alone") {
   const auto u = make_boundary<2>(
       {test::polygon({{0, 0}, {2.2, 0}, {2.2, 3}, {1.2, 3}, {1.2, 1}, {1, 1}, {1, 3}, {0, 3}})});

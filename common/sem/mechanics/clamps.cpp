@@ -1,6 +1,7 @@
 #include "sem/mechanics/clamps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -76,6 +77,57 @@ StressDerivative<Dim> third_derivative(const HeldPoint<Dim>& p) {
           stress_derivative<Dim>(p.material, p.F - D, p.pressure));
 }
 
+// The Hessian of all points of a block in its columns: with the traction on held components
+// held dP N = T_j dz_j by column j, sum of w (v_m v_j K - v_m T_j - v_j T_m^T - grad v_m . D . grad v_j), one
+// product over the points for each pair of components.
+template <int Dim>
+MatrixXd block_hessian(const std::vector<HeldPoint<Dim>>& points, bool approximate) {
+  const MapBlock<Dim>& block = points[0].block;
+  const int n = int(block.columns.size()), n_points = int(points.size());
+  const auto rows = Eigen::seqN(points[0].row, n_points);
+  const MatrixXd V = block.value(rows, Eigen::all);
+  std::array<MatrixXd, Dim> G;
+  for (int b = 0; b < Dim; ++b) G[b] = block.gradient[b](rows, Eigen::all);
+  std::vector<Mat<Dim>> K;
+  std::vector<StressDerivative<Dim>> C, D;
+  for (const auto& p : points) {
+    K.push_back(p.weight * penalty_matrix(p));
+    C.push_back(p.weight * stress_derivative<Dim>(p.material, p.F, p.pressure));
+    if (!approximate) D.push_back(p.weight * third_derivative(p));
+  }
+  // w T of component a by component c, #points by #columns.
+  const auto traction = [&](int a, int c) {
+    MatrixXd T = MatrixXd::Zero(n_points, n);
+    for (int k = 0; k < n_points; ++k)
+      for (int d = 0; d < Dim; ++d) {
+        double factor = 0;
+        for (int b = 0; b < Dim; ++b) factor += points[k].normal[b] * C[k](a + Dim * b, c + Dim * d);
+        T.row(k) += points[k].held[a] * factor * G[d].row(k);
+      }
+    return T;
+  };
+  MatrixXd sum(Dim * n, Dim * n);
+  for (int a = 0; a < Dim; ++a)
+    for (int c = 0; c <= a; ++c) {
+      MatrixXd right = -traction(a, c);
+      for (int k = 0; k < n_points; ++k) right.row(k) += K[k](a, c) * V.row(k);
+      MatrixXd local = V.transpose() * right;
+      local -= traction(c, a).transpose() * V;
+      for (int b = 0; b < Dim && !approximate; ++b) {
+        MatrixXd work = MatrixXd::Zero(n_points, n);
+        for (int k = 0; k < n_points; ++k)
+          for (int d = 0; d < Dim; ++d) work.row(k) += D[k](a + Dim * b, c + Dim * d) * G[d].row(k);
+        local -= G[b].transpose() * work;
+      }
+      for (int j = 0; j < n; ++j)
+        for (int m = 0; m < n; ++m) {
+          sum(Dim * m + a, Dim * j + c) = local(m, j);
+          sum(Dim * j + c, Dim * m + a) = local(m, j);
+        }
+    }
+  return sum;
+}
+
 // The unknowns that a spring acts on, ascending.
 template <int Dim>
 std::vector<int> coupled_columns(const HeldControl<Dim>& spring) {
@@ -137,37 +189,17 @@ void Clamps<Dim>::add_gradient(const VectorXd& z, VectorXd& g, const double* pre
 template <int Dim>
 void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, SymmetricMatrix& H,
                               const double* pressure) const {
-  MatrixXd sum;
+  std::vector<HeldPoint<Dim>> held;
+  const auto add_block = [&] {
+    if (!held.empty()) H.add(held[0].block.columns, block_hessian(held, approximate));
+    held.clear();
+  };
   visit_points<Dim>(points_, z, pressure, [&](const HeldPoint<Dim>& p) {
-    const auto& block = p.block;
-    const int n = int(block.columns.size());
-    const Mat<Dim> K = penalty_matrix(p);
-    const StressDerivative<Dim> C = stress_derivative<Dim>(p.material, p.F, p.pressure);
-    const StressDerivative<Dim> D =
-        approximate ? StressDerivative<Dim>::Zero().eval() : third_derivative(p);
-    // Traction on held components by the column j: held dP N = T_j dz_j.
-    std::vector<Mat<Dim>> T(n, Mat<Dim>::Zero());
-    for (int j = 0; j < n; ++j)
-      for (int a = 0; a < Dim; ++a)
-        for (int c = 0; c < Dim; ++c)
-          for (int b = 0; b < Dim; ++b)
-            for (int d = 0; d < Dim; ++d)
-              T[j](a, c) += p.held[a] * p.normal[b] * C(a + Dim * b, c + Dim * d) *
-                            block.gradient[d](p.row, j);
-    sum.resize(Dim * n, Dim * n);
-    for (int j = 0; j < n; ++j)
-      for (int m = 0; m < n; ++m) {
-        const double value_j = block.value(p.row, j), value_m = block.value(p.row, m);
-        Mat<Dim> local = value_m * value_j * K - value_m * T[j] - value_j * T[m].transpose();
-        if (!approximate)
-          for (int b = 0; b < Dim; ++b)
-            for (int d = 0; d < Dim; ++d)
-              local -= block.gradient[b](p.row, m) * block.gradient[d](p.row, j) *
-                       D.template block<Dim, Dim>(Dim * b, Dim * d);
-        sum.template block<Dim, Dim>(Dim * m, Dim * j) = p.weight * local;
-      }
-    H.add(block.columns, sum);
+    if (!held.empty() && &held[0].block != &p.block) add_block();
+    held.push_back(p);
   });
+  add_block();
+  MatrixXd sum;
   for (const auto& spring : controls_) {
     const std::vector<int> columns = coupled_columns(spring);
     const Eigen::RowVectorXd& row = spring.output;

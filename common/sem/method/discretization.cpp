@@ -1,5 +1,6 @@
 #include "sem/method/discretization.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "sem/base/error.h"
@@ -28,7 +29,7 @@ struct Theta {
 
 template <int Dim>
 Theta<Dim> measure_theta(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
-                         const std::vector<CornerPatch<Dim>>& corners, const Points<Dim>& position,
+                         const std::vector<JointPatch>& patches, const Points<Dim>& position,
                          const MethodOptions& options) {
   const double longest =
       options.weights.sparsity ? std::numeric_limits<double>::infinity() : options.weights.cutoff;
@@ -37,7 +38,7 @@ Theta<Dim> measure_theta(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
   auto theta = distance_weights(distances, options.weights);
   if (options.formulation == Formulation::condensed)
     distance_weight_gradients(boundary, position, distances, theta);
-  add_corners(corners, position, theta);
+  add_joint_patches(patches, boundary, distances, position, theta);
   keep_out_of_stiffer(options.stiffness, boundary, theta);
   return {std::move(distances), std::move(theta)};
 }
@@ -88,13 +89,16 @@ double correct_gradients(Discretization<Dim>& d) {
 
 // Patches with fewer points than twice the coefficients of a polynomial are left out.
 template <int Dim>
-void drop_unresolved_corners(Discretization<Dim>& d) {
+void drop_unresolved_patches(Discretization<Dim>& d) {
+  if (d.patches.empty()) return;
   const int needed = 2 * (Monomials<Dim>(d.options.projection.degree).size() + 1);
-  std::erase_if(d.corners, [&](const CornerPatch<Dim>& corner) {
-    const auto distance =
-        (d.quadrature.position.colwise() - corner.center).colwise().norm().array();
-    return (distance < corner.radius).count() < needed;
-  });
+  const auto theta = measure_theta(d.boundary, d.loops, d.patches, d.quadrature.position, d.options).theta;
+  std::vector<int> n_points(theta.n_parts, 0);
+  for (const int part : theta.part) ++n_points[part];
+  std::vector<JointPatch> resolved;
+  for (size_t p = 0; p < d.patches.size(); ++p)
+    if (n_points[d.boundary.n_parts() + p] >= needed) resolved.push_back(d.patches[p]);
+  d.patches = std::move(resolved);
 }
 
 // 1 + the squares of the Legendre polynomials P_n of each coordinate on the box, of mean 1: what products of
@@ -124,8 +128,7 @@ std::vector<Box<Dim>> support_boxes(const Discretization<Dim>& d) {
   };
   for (const auto& part : d.boundary.parts)
     add(part.box.lower.array() - reach, part.box.upper.array() + reach);
-  for (const auto& corner : d.corners)
-    add(corner.center.array() - corner.radius, corner.center.array() + corner.radius);
+  for (const auto& patch : d.patches) boxes.push_back(support_of(patch, d.boundary));
   return boxes;
 }
 
@@ -135,7 +138,7 @@ std::vector<Box<Dim>> support_boxes(const Discretization<Dim>& d) {
 template <int Dim>
 Indicators weight_indicators(const Discretization<Dim>& d, const Points<Dim>& position) {
   const auto [distances, theta] =
-      measure_theta(d.boundary, d.loops, d.corners, position, d.options);
+      measure_theta(d.boundary, d.loops, d.patches, position, d.options);
   const auto weights = blending_weights(theta, d.boundary, position);
   const auto supports = support_boxes(d);
   Indicators values;
@@ -149,7 +152,7 @@ Indicators weight_indicators(const Discretization<Dim>& d, const Points<Dim>& po
       const bool of_part = pair < distances.begin[k + 1];
       const double rho = of_part ? std::min(distances.closest[pair], theta.cutoff / 4)
                          : i < d.boundary.n_parts() ? 0
-                                                    : d.corners[i - d.boundary.n_parts()].radius;
+                                                    : d.patches[i - d.boundary.n_parts()].radius;
       if (!of_part) pair = distances.begin[k];
       const double variation = polynomial_variation<Dim>(supports[i], d.options.projection.degree, position.col(k));
       values.index.push_back(2 * i);
@@ -213,15 +216,15 @@ Discretization<Dim> discretize(const std::vector<std::vector<Nurbs<Dim - 1, Dim>
     throw InputError("", "method.quadrature.method", "'resolved' with fit or compress",
                      "one of the other rules: moments do not tell where weights have kinks");
   if (options.formulation == Formulation::condensed)
-    d.corners = find_corners(d.boundary, d.loops, options.weights.cutoff, options.corner_levels);
+    d.patches = find_joint_patches(d.boundary, d.loops, options.condition, options.weights.cutoff, options.patch_levels);
   d.quadrature = timed(d.cost, "interior quadrature", [&] {
     return resolved ? resolve_weights(d)
                     : interior_rule(d.boundary, d.loops, d.rays, options.interval,
                                     options.interior_rule, d.interior_report);
   });
-  drop_unresolved_corners(d);
+  drop_unresolved_patches(d);
   d.theta = timed(d.cost, "distance weights", [&] {
-    return measure_theta(d.boundary, d.loops, d.corners, d.quadrature.position, options).theta;
+    return measure_theta(d.boundary, d.loops, d.patches, d.quadrature.position, options).theta;
   });
   // From here on the cutoff is a length, also where a sparsity was asked for.
   d.options.weights.cutoff = d.theta.cutoff;
@@ -255,11 +258,12 @@ Discretization<Dim> discretize(const std::vector<std::vector<Nurbs<Dim - 1, Dim>
 template <int Dim>
 BoundaryRule<Dim> boundary_rule(const Discretization<Dim>& d) {
   SamplingOptions options{DimTraits<Dim>::boundary_points, SampleWeight::measure, SampleRule::gauss};
+  for (const auto& patch : d.patches) options.end_halvings = std::max(options.end_halvings, patch.level + 2);
   if (d.options.formulation == Formulation::projected) {
     int highest = 1;
     for (const auto& part : d.boundary.parts)
       for (const int degree : part.nurbs.degree) highest = std::max(highest, degree);
-    options = {highest + 5, SampleWeight::measure, SampleRule::gauss_lobatto};
+    options = {highest + 5, SampleWeight::measure, SampleRule::gauss_lobatto, 0};
   }
   BoundaryRule<Dim> rule;
   rule.samples = sample_boundary(d.boundary, options);
@@ -285,7 +289,7 @@ int append_columns(Discretization<Dim>& d, int n) {
 
 template <int Dim>
 Map<Dim> map_at(const Discretization<Dim>& d, const Points<Dim>& position, bool with_gradient) {
-  const auto theta = measure_theta(d.boundary, d.loops, d.corners, position, d.options).theta;
+  const auto theta = measure_theta(d.boundary, d.loops, d.patches, position, d.options).theta;
   return blended_map(position, blending_weights(theta, d.boundary, position), d.origins,
                      d.projection, d.unknowns.size(), with_gradient, d.options.n_threads);
 }
@@ -293,7 +297,7 @@ Map<Dim> map_at(const Discretization<Dim>& d, const Points<Dim>& position, bool 
 template <int Dim>
 Eigen::MatrixXd field_at(const Discretization<Dim>& d, const BlendedField<Dim>& field,
                          const Points<Dim>& position) {
-  const auto theta = measure_theta(d.boundary, d.loops, d.corners, position, d.options).theta;
+  const auto theta = measure_theta(d.boundary, d.loops, d.patches, position, d.options).theta;
   return dense_value(blended_map(position, blending_weights(theta, d.boundary, position), field.origins,
                                  field.projection, field.n_functions, false, d.options.n_threads));
 }

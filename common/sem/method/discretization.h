@@ -6,9 +6,9 @@
 
 #include "sem/method/blending_weights.h"
 #include "sem/method/coefficients.h"
-#include "sem/method/corners.h"
 #include "sem/method/followers.h"
 #include "sem/method/interior_rule.h"
+#include "sem/method/joint_patches.h"
 #include "sem/method/map.h"
 #include "sem/method/origins.h"
 #include "sem/method/projection.h"
@@ -26,6 +26,13 @@ enum class Formulation {
 /// (mechanics/pressure.h).
 enum class OwnPressure { automatic /* Poisson's ratio from 0.4 on */, always /* above 0 */, never };
 
+/// Levels of patches that scenes of the condensed formulation have unless they say otherwise. 3D: along an edge they
+/// need many more points, on request only.
+template <int Dim>
+inline constexpr int usual_patch_levels = 4;
+template <>
+inline constexpr int usual_patch_levels<3> = 0;
+
 /// The options of every stage.
 struct MethodOptions {
   Formulation formulation = Formulation::projected;
@@ -35,7 +42,8 @@ struct MethodOptions {
   InteriorOptions interior_rule;
   WeightOptions weights;
   std::vector<double> stiffness = {};  ///< #parts: of their materials (material_weights.h); empty: all alike
-  int corner_levels = 2;    ///< of patches at re-entrant corners, condensed only (corners.h)
+  int patch_levels = 0;     ///< of patches at joints, condensed only (joint_patches.h)
+  std::vector<int> condition = {};  ///< #parts: as find_joint_patches has it; empty: all are held and loaded alike
   OwnPressure own_pressure = OwnPressure::automatic;
   OriginChoice origins = OriginChoice::shared_parts;
   ProjectionOptions projection;
@@ -61,7 +69,7 @@ struct Discretization {
   Rays<Dim> rays;
   Quadrature<Dim> quadrature;
   InteriorReport<Dim> interior_report;
-  std::vector<CornerPatch<Dim>> corners;  ///< condensed: further parts of theta and weights
+  std::vector<JointPatch> patches;  ///< condensed: further parts of theta and weights
   DistanceWeights<Dim> theta;
   BlendingWeights<Dim> weights;
   Origins<Dim> origins;

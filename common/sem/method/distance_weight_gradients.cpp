@@ -85,24 +85,14 @@ Mat<Dim> direction_derivative(const Vec<Dim>& n, double d, const Mat<Dim>& foot)
 template <int Dim>
 Vec<Dim> sided_gradient(const PreparedNurbs<Dim - 1, Dim>& part, const Distances<Dim>& distances, int pair,
                         const Vec<Dim>& X, const DistanceWeights<Dim>& theta) {
-  const auto& shape = part.nurbs;
   const double d = distances.closest[pair];
-  const int outward = distances.outward[distances.part[pair]];
   const Slope profile = distance_profile(d / theta.cutoff);
-  if (d == 0) return -profile.derivative / theta.cutoff * outward * unit_normal(shape, distances.foot_u[pair]);
+  if (d == 0)
+    return -profile.derivative / theta.cutoff * distances.outward[distances.part[pair]] *
+           unit_normal(part.nurbs, distances.foot_u[pair]);
   const Vec<Dim> n = (X - distances.foot[pair]) / d;
-  const Slope step = side_step(distances.side[pair], theta.side_ramp);
-  const Vec<Dim> gradient = profile.derivative * step.value / theta.cutoff * n;
-  if (step.derivative == 0) return gradient;
-  const Param<Dim - 1> u = regular_parameter<Dim>(shape, distances.foot_u[pair]);
-  const auto at = derivatives(shape, u);
-  const Vec<Dim> N = unit_normal(shape, u);
-  const FootMotion<Dim> foot = foot_motion<Dim>(part, u, at, d * n, u != distances.foot_u[pair]);
-  const Mat<Dim> dn = direction_derivative<Dim>(n, d, foot.position);
-  const Mat<Dim> dN = normal_derivative<Dim>(at, N) * foot.parameter;
-  const Vec<Dim> from_n = dn.transpose() * N, from_N = dN.transpose() * n;
-  const Vec<Dim> dside = -outward * (from_n + from_N);
-  return gradient + profile.value * step.derivative * dside;
+  const SideStep<Dim> step = side_at(part, distances, pair, X, theta.side_ramp);
+  return profile.derivative * step.value / theta.cutoff * n + profile.value * step.gradient;
 }
 
 template <int Dim>
@@ -130,6 +120,23 @@ Vec<Dim> theta_gradient(const Boundary<Dim>& boundary, const Distances<Dim>& dis
 }  // namespace
 
 template <int Dim>
+SideStep<Dim> side_at(const PreparedNurbs<Dim - 1, Dim>& part, const Distances<Dim>& distances, int pair,
+                      const Vec<Dim>& X, double ramp) {
+  const Slope step = side_step(distances.side[pair], ramp);
+  const double d = distances.closest[pair];
+  if (d == 0 || step.derivative == 0) return {step.value, Vec<Dim>::Zero()};
+  const Vec<Dim> n = (X - distances.foot[pair]) / d;
+  const Param<Dim - 1> u = regular_parameter<Dim>(part.nurbs, distances.foot_u[pair]);
+  const auto at = derivatives(part.nurbs, u);
+  const Vec<Dim> N = unit_normal(part.nurbs, u);
+  const FootMotion<Dim> foot = foot_motion<Dim>(part, u, at, d * n, u != distances.foot_u[pair]);
+  const Mat<Dim> dn = direction_derivative<Dim>(n, d, foot.position);
+  const Mat<Dim> dN = normal_derivative<Dim>(at, N) * foot.parameter;
+  const Vec<Dim> from_n = dn.transpose() * N, from_N = dN.transpose() * n;
+  return {step.value, -step.derivative * distances.outward[distances.part[pair]] * (from_n + from_N)};
+}
+
+template <int Dim>
 void distance_weight_gradients(const Boundary<Dim>& boundary, const Points<Dim>& position,
                                const Distances<Dim>& distances, DistanceWeights<Dim>& theta) {
   theta.gradient.clear();
@@ -150,7 +157,8 @@ void distance_weight_gradients(const Boundary<Dim>& boundary, const Points<Dim>&
 
 #define SEM_INSTANTIATE(Dim)                                                              \
   template void distance_weight_gradients<Dim>(const Boundary<Dim>&, const Points<Dim>&,  \
-                                               const Distances<Dim>&, DistanceWeights<Dim>&);
+                                               const Distances<Dim>&, DistanceWeights<Dim>&); \
+  template SideStep<Dim> side_at<Dim>(const PreparedNurbs<Dim - 1, Dim>&, const Distances<Dim>&, int, const Vec<Dim>&, double);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)
 #undef SEM_INSTANTIATE

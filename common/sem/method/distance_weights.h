@@ -20,7 +20,7 @@ struct WeightOptions {
   DistanceWeight variant = DistanceWeight::published;
   double cutoff = 1;               ///< alpha, m
   std::optional<double> sparsity = {};  ///< T in (0, 1]: alpha so that this share of the weights is non-zero
-  double side_ramp = 0.2;  ///< s in (0, 1]: the sided weight falls to 0 where the cosine to the inner normal is -s
+  double side_ramp = 0.5;  ///< s in (0, 1]: the sided weight falls to 0 where the cosine to the inner normal is -s
 };
 
 /// What the weights of one part at one point are made of; alpha-free. Stored
@@ -97,5 +97,16 @@ DistanceWeights<Dim> distance_weights(const Distances<Dim>& distances, const Wei
 template <int Dim>
 void distance_weight_gradients(const Boundary<Dim>& boundary, const Points<Dim>& position,
                                const Distances<Dim>& distances, DistanceWeights<Dim>& theta);
+
+/// h(side) of a sided weight and its gradient, 1/m.
+template <int Dim>
+struct SideStep {
+  double value;
+  Vec<Dim> gradient;
+};
+/// h of a pair of `distances` (sided), which belongs to `part` and X; the gradient is zero on the part.
+template <int Dim>
+SideStep<Dim> side_at(const PreparedNurbs<Dim - 1, Dim>& part, const Distances<Dim>& distances, int pair,
+                      const Vec<Dim>& X, double ramp);
 
 }  // namespace sem

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sem {
 
@@ -46,6 +47,53 @@ std::vector<double> RayColumns<Dim>::band_ends(const std::vector<double>& values
       while (b - a > 1e-15 * size_ && a < (a + b) / 2 && (a + b) / 2 < b)
         (n_intervals_at((a + b) / 2) == before ? a : b) = (a + b) / 2;
       ends.push_back((a + b) / 2);
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  return ends;
+}
+
+template <int Dim>
+typename RayColumns<Dim>::PartsOnRay RayColumns<Dim>::parts_on_ray(double y) const {
+  const auto ray = cast_at({y})[0];
+  const double tie = 1e-11 * size_;  // coincident parts: the first of them
+  PartsOnRay parts;
+  const auto add_bound = [&](double t) {
+    int first = std::numeric_limits<int>::max();
+    for (const auto& hit : ray.hits)
+      if (std::abs(hit.t - t) < tie) first = std::min(first, hit.part);
+    parts.bounds.push_back(first);
+  };
+  for (const auto& interval : ray.intervals) {
+    add_bound(interval.begin);
+    add_bound(interval.end);
+  }
+  for (const auto& hit : ray.hits) parts.met.push_back(hit.part);
+  std::sort(parts.met.begin(), parts.met.end());
+  return parts;
+}
+
+// The bounds of the inside have kinks where two parts change places along the rays. They do not
+// where one part ends and its neighbour goes on: then other parts are met on both sides of the
+// place.
+template <int Dim>
+std::vector<double> RayColumns<Dim>::with_crossings(const std::vector<double>& values) const {
+  std::vector<double> ends = values;
+  constexpr int n_samples = 6;
+  for (size_t k = 0; k + 1 < values.size(); ++k) {
+    const double width = values[k + 1] - values[k];
+    const auto y = [&](int i) { return values[k] + width * (i + 0.5) / n_samples; };
+    PartsOnRay before = parts_on_ray(y(0));
+    for (int i = 0; i + 1 < n_samples; ++i) {
+      PartsOnRay after = parts_on_ray(y(i + 1));
+      double a = y(i), b = y(i + 1);
+      if (after.bounds != before.bounds) {
+        while (b - a > 1e-15 * size_ && a < (a + b) / 2 && (a + b) / 2 < b)
+          (parts_on_ray((a + b) / 2).bounds == before.bounds ? a : b) = (a + b) / 2;
+        const double aside = 1e-6 * width;
+        if (parts_on_ray(a - aside).met == parts_on_ray(b + aside).met) ends.push_back((a + b) / 2);
+      }
+      before = std::move(after);
     }
   }
   std::sort(ends.begin(), ends.end());
@@ -114,8 +162,9 @@ EndKind RayColumns<Dim>::end_kind(const RayBand& band, bool at_upper) const {
 }
 
 template <int Dim>
-std::vector<RayColumn> RayColumns<Dim>::columns_between(const std::vector<double>& values) const {
+std::vector<RayColumn> RayColumns<Dim>::columns_between(const std::vector<double>& at) const {
   constexpr double share = 1e-4;  // rays closer to a tangent cost more
+  const auto values = with_crossings(at);
   std::vector<RayColumn> columns;
   for (size_t k = 0; k + 1 < values.size(); ++k) {
     const double lower = values[k], upper = values[k + 1];

@@ -46,8 +46,8 @@ class RayColumns {
   std::vector<std::vector<RayBand>> chains(const std::vector<double>& values) const;
   /// How an interval's ends move near an end of its band.
   EndKind end_kind(const RayBand& band, bool at_upper) const;
-  /// A column for every interval between neighbours of the values, ascending, that change nothing
-  /// in between.
+  /// A column for every interval between neighbours of the values, ascending, and of the places
+  /// between them where parts that bound intervals cross; nothing else may change in between.
   std::vector<RayColumn> columns_between(const std::vector<double>& values) const;
   /// n rays' stretches in the column, at points of the rule for its ends; empty if one of them has
   /// other intervals than the bands say.
@@ -59,6 +59,12 @@ class RayColumns {
   std::vector<EndKind> end_kinds(double lower, double upper, int n_intervals, bool at_upper,
                                  double share) const;
   std::vector<double> band_ends(const std::vector<double>& values) const;
+  // The parts on a ray: what bounds its intervals, in order, and all that it meets, sorted.
+  struct PartsOnRay {
+    std::vector<int> bounds, met;
+  };
+  PartsOnRay parts_on_ray(double y) const;
+  std::vector<double> with_crossings(const std::vector<double>& values) const;
   bool continues(const RayInterval& a, const RayInterval& b) const;
 
   const Component<Dim>& component_;

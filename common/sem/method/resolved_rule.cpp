@@ -15,6 +15,9 @@ namespace {
 // that the cells do not depend on it.
 constexpr double change_tie = 1e-6;
 
+// Of the mean integral: what is smaller need not be known as well.
+constexpr double least_share = 1e-4;
+
 // A box in the coordinates sigma of the cells, [0, 1] each: across the rays (Dim - 1), then along.
 template <int Dim>
 struct Patch {
@@ -23,14 +26,51 @@ struct Patch {
   std::array<int, Dim> depth{};
 };
 
-// A patch with its rule and integrals.
+// A row of which few entries are not zero.
+struct SparseRow {
+  std::vector<int> index;
+  std::vector<double> value;
+};
+
+// Where sparse rows are added up.
+class RowSum {
+ public:
+  explicit RowSum(int n) : sum_(Eigen::VectorXd::Zero(n)), seen_(n, false) {}
+  void add(int index, double value) {
+    if (!seen_[index]) touched_.push_back(index);
+    seen_[index] = true;
+    sum_[index] += value;
+  }
+  void add(double factor, const SparseRow& row) {
+    for (size_t e = 0; e < row.index.size(); ++e) add(row.index[e], factor * row.value[e]);
+  }
+  // The sum; starts from zero again.
+  SparseRow take() {
+    SparseRow row{std::move(touched_), {}};
+    touched_.clear();
+    std::sort(row.index.begin(), row.index.end());
+    for (const int i : row.index) {
+      row.value.push_back(sum_[i]);
+      sum_[i] = 0;
+      seen_[i] = false;
+    }
+    return row;
+  }
+
+ private:
+  Eigen::VectorXd sum_;
+  std::vector<bool> seen_;
+  std::vector<int> touched_;
+};
+
+// A patch with its rule and the integrals of the indicators.
 template <int Dim>
 struct Piece {
   Patch<Dim> patch;
   Points<Dim> position;
   Eigen::VectorXd weight;
   std::vector<int> solid;
-  Eigen::VectorXd integral;
+  SparseRow integral;
 };
 
 // A leaf of the subdivision: its rule, and the two halves across its worst direction.
@@ -38,7 +78,8 @@ template <int Dim>
 struct Leaf {
   Piece<Dim> whole;
   std::array<Piece<Dim>, 2> halves;
-  double error = 0;       // the largest change by halving
+  SparseRow change;       // of the integrals by halving across that direction, absolute
+  double error = 0;       // the changes by the indicators' scales
   bool refinable = true;  // false: halved as often as allowed
 };
 
@@ -62,22 +103,25 @@ class Refiner {
   }
 
   ResolvedRule<Dim> run() {
-    add_leaves(integrate(first_patches()));
+    auto first = integrate(first_patches());
+    measure_scales(first);
+    add_leaves(std::move(first));
     ResolvedRule<Dim> result;
     while (true) {
-      double total = 0, error = 0, stuck = 0;
+      double error = 0, stuck = 0;
       size_t n_points = 0;
       bool refinable = false;
-      for (const auto& leaf : leaves_) {
-        total += leaf.whole.integral.sum();
+      measure_scales(leaves_);
+      for (auto& leaf : leaves_) {
+        leaf.error = relative(leaf.change);
         (leaf.refinable ? error : stuck) += leaf.error;
         n_points += leaf.whole.weight.size();
         refinable |= leaf.refinable;
       }
-      result.error = total > 0 ? (error + stuck) / total : 0;
-      result.reached = error + stuck <= options_.tolerance * total;
+      result.error = error + stuck;
+      result.reached = result.error <= options_.tolerance;
       const bool few = int(n_points) < options_.min_points;
-      if (!refinable || (error <= options_.tolerance * total && !few)) break;
+      if (!refinable || (error <= options_.tolerance && !few)) break;
       if (int(n_points) > options_.max_points) break;
       refine(error);
     }
@@ -145,7 +189,7 @@ class Refiner {
   }
 
   // The rules of the patches and their integrals.
-  std::vector<Piece<Dim>> integrate(const std::vector<Patch<Dim>>& patches) const {
+  std::vector<Piece<Dim>> integrate(const std::vector<Patch<Dim>>& patches) {
     const Rays<Dim> rays = cast_through(patches);
     const int n = int(rule_.node.size());
     const size_t per_patch = patches.empty() ? 0 : rays.rays.size() / patches.size();
@@ -178,14 +222,42 @@ class Refiner {
     Points<Dim> position(Dim, all.size());
     for (size_t k = 0; k < all.size(); ++k) position.col(k) = all[k];
     const Indicators values = indicators_(position);
+    scale_.resize(values.n);
+    RowSum sum(values.n);
     size_t point = 0;
     for (auto& piece : pieces) {
-      piece.integral = Eigen::VectorXd::Zero(values.n);
       for (int k = 0; k < piece.weight.size(); ++k, ++point)
         for (int e = values.begin[point]; e < values.begin[point + 1]; ++e)
-          piece.integral[values.index[e]] += piece.weight[k] * values.value[e];
+          sum.add(values.index[e], piece.weight[k] * values.value[e]);
+      piece.integral = sum.take();
     }
     return pieces;
+  }
+
+  static const SparseRow& integral_of(const Piece<Dim>& piece) { return piece.integral; }
+  static const SparseRow& integral_of(const Leaf<Dim>& leaf) { return leaf.whole.integral; }
+
+  // What each indicator's changes count relative to, from pieces or leaves of all the solid.
+  template <class Cells>
+  void measure_scales(const Cells& cells) {
+    std::fill(scale_.begin(), scale_.end(), 0);
+    double sum = 0;
+    for (const auto& cell : cells) {
+      const SparseRow& row = integral_of(cell);
+      for (size_t e = 0; e < row.index.size(); ++e) {
+        scale_[row.index[e]] += row.value[e];
+        sum += row.value[e];
+      }
+    }
+    const auto n = double(scale_.size());
+    for (double& scale : scale_) scale = n * std::max(scale, least_share * sum / n);
+  }
+
+  double relative(const SparseRow& change) const {
+    double sum = 0;
+    for (size_t e = 0; e < change.index.size(); ++e)
+      if (change.value[e] != 0) sum += std::abs(change.value[e]) / scale_[change.index[e]];
+    return sum;
   }
 
   // Makes leaves: tries the halves across every direction and keeps those that change most.
@@ -201,6 +273,7 @@ class Refiner {
           halves.push_back(half);
         }
     auto pieces = integrate(halves);
+    RowSum sum(int(scale_.size()));
     for (size_t p = 0; p < wholes.size(); ++p) {
       Leaf<Dim> leaf;
       leaf.whole = std::move(wholes[p]);
@@ -209,8 +282,15 @@ class Refiner {
       for (int axis = 0; axis < Dim; ++axis) {
         const auto& a = pieces[2 * (Dim * p + axis)];
         const auto& b = pieces[2 * (Dim * p + axis) + 1];
-        const double change = (a.integral + b.integral - leaf.whole.integral).cwiseAbs().sum();
-        if (change > leaf.error) leaf.error = change;
+        sum.add(1, a.integral);
+        sum.add(1, b.integral);
+        sum.add(-1, leaf.whole.integral);
+        SparseRow row = sum.take();
+        const double change = relative(row);
+        if (change > leaf.error || axis == 0) {
+          leaf.error = change;
+          leaf.change = std::move(row);
+        }
         if (leaf.whole.patch.depth[axis] >= options_.max_depth || change <= (1 + change_tie) * best) continue;
         worst = axis;
         best = change;
@@ -275,6 +355,7 @@ class Refiner {
   std::array<int, Dim - 1> across_;
   std::vector<Box<Dim>> blocks_;
   std::vector<Leaf<Dim>> leaves_;
+  std::vector<double> scale_;  // per indicator: its integral, times their number
 };
 
 }  // namespace

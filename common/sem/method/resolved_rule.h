@@ -34,8 +34,8 @@ inline constexpr double usual_weight_tolerance<3> = 1e-2;
 struct ResolvedOptions {
   int axis = 0;             ///< of the rays
   int points = 5;           ///< Gauss points of a cell per direction
-  double tolerance = 3e-4;  ///< sum of the cells' changes when halved, relative to the integrals,
-                            ///< both summed over the indicators
+  double tolerance = 3e-4;  ///< mean over the indicators: sum of the cells' changes when halved, relative to the
+                            ///< indicator's own integral or 1e-4 of the mean one, whichever is larger
   int max_depth = 10;       ///< halvings of a cell per direction
   int max_points = 200000;
   int min_points = 0;       ///< cells are halved until there are as many, whatever their change

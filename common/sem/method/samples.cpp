@@ -17,14 +17,35 @@ bool may_jump(const Nurbs<Dim - 1, Dim>& nurbs, int axis, double u) {
   return std::count(knots.begin(), knots.end(), u) > nurbs.degree[axis];
 }
 
+// Spans, those at the domain's ends cut towards them.
+template <int Dim>
+std::vector<Interval> graded_spans(const Nurbs<Dim - 1, Dim>& nurbs, int axis, int halvings) {
+  const std::vector<Interval> all = spans(nurbs, axis);
+  if (halvings == 0) return all;
+  const Interval range = domain(nurbs, axis);
+  std::vector<double> cuts = {range.lower, range.upper};
+  for (const auto& span : all) {
+    cuts.push_back(span.upper);
+    for (double length = (span.upper - span.lower) / 2, h = 0; h < halvings; ++h, length /= 2) {
+      if (span.lower == range.lower) cuts.push_back(span.lower + length);
+      if (span.upper == range.upper) cuts.push_back(span.upper - length);
+    }
+  }
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  std::vector<Interval> graded;
+  for (size_t k = 1; k < cuts.size(); ++k) graded.push_back({cuts[k - 1], cuts[k]});
+  return graded;
+}
+
 // Points of all knot spans along one direction. A point shared by two spans is kept once, with both
 // weights, but where the part may jump: there each side has its own, the left one as close as it gets.
 template <int Dim>
-LineRule span_points(const Nurbs<Dim - 1, Dim>& nurbs, int axis, int n, SampleRule points) {
-  const bool ends = points == SampleRule::gauss_lobatto;
+LineRule span_points(const Nurbs<Dim - 1, Dim>& nurbs, int axis, int n, const SamplingOptions& options) {
+  const bool ends = options.rule == SampleRule::gauss_lobatto;
   const LineRule reference = ends ? gauss_lobatto(n) : gauss_legendre(n);
   LineRule rule;
-  for (const auto& [a, b] : spans(nurbs, axis)) {
+  for (const auto& [a, b] : graded_spans<Dim>(nurbs, axis, options.end_halvings)) {
     const bool jump = ends && b < domain(nurbs, axis).upper && may_jump<Dim>(nurbs, axis, b);
     for (int k = 0; k < n; ++k) {
       const double end = jump ? std::nextafter(b, a) : b;
@@ -44,11 +65,11 @@ LineRule span_points(const Nurbs<Dim - 1, Dim>& nurbs, int axis, int n, SampleRu
 // Tensor-product points of an untrimmed part.
 template <int Dim>
 ParameterRule<Dim - 1> points_of_spans(const Nurbs<Dim - 1, Dim>& nurbs, const std::array<int, Dim - 1>& n_points,
-                                       SampleRule points) {
+                                       const SamplingOptions& options) {
   std::array<LineRule, Dim - 1> rules;
   int n = 1;
   for (int a = 0; a < Dim - 1; ++a) {
-    rules[a] = span_points<Dim>(nurbs, a, n_points[a], points);
+    rules[a] = span_points<Dim>(nurbs, a, n_points[a], options);
     n *= int(rules[a].node.size());
   }
   ParameterRule<Dim - 1> result{std::vector<Param<Dim - 1>>(n), std::vector<double>(n, 1)};
@@ -72,7 +93,7 @@ void append_part(const PreparedNurbs<Dim - 1, Dim>& shape, int part, int first_c
   for (int a = 0; a < param_dim; ++a)
     n_points[a] = n_more + (options.points_per_span > 0 ? options.points_per_span : nurbs.degree[a] + 1);
   const auto rule = shape.region ? shape.region->rule(*std::max_element(n_points.begin(), n_points.end()))
-                                 : points_of_spans<Dim>(nurbs, n_points, options.rule);
+                                 : points_of_spans<Dim>(nurbs, n_points, options);
   BasisValues<param_dim> basis;
   for (size_t k = 0; k < rule.u.size(); ++k) {
     evaluate_basis(nurbs, rule.u[k], 1, basis);

@@ -21,6 +21,9 @@ struct SamplingOptions {
   int points_per_span = 0;  ///< points per knot span and direction; 0: NURBS degree + 1
   SampleWeight weight = SampleWeight::measure;
   SampleRule rule = SampleRule::gauss_lobatto;
+  /// Spans at a part's ends are cut at 1/2, 1/4, ... of their length from it, so often: what grows towards joints is
+  /// integrated well (untrimmed parts).
+  int end_halvings = 0;
 };
 
 /// Samples of all parts, ordered by part.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -61,6 +62,7 @@ class Builder {
     }
     MethodOptions options = scene_.method;
     options.stiffness = part_stiffness();
+    options.condition = boundary_conditions();
     model_->discretization = discretize<Dim>(solids, options, trims);
     model_->cost = model_->discretization.cost;
   }
@@ -74,6 +76,42 @@ class Builder {
       alike &= i == 0 || parts_[i].solid != parts_[i - 1].solid || stiffness[i] == stiffness[i - 1];
     }
     return alike ? std::vector<double>() : stiffness;
+  }
+
+  // What pins and boundary loads do to a part that they act on as a whole: parts with the same number are held, led
+  // and loaded alike.
+  std::vector<int> boundary_conditions() const {
+    Box<Dim> box;
+    for (const auto& solid : scene_.solids)
+      for (const auto& part : solid.parts)
+        for (const auto& p : part.shape.control_points.colwise()) box.include(Vec<Dim>(p));
+    const double tolerance = 1e-9 * box.diagonal();
+    std::map<std::vector<double>, int> number;
+    std::vector<int> condition;
+    for (const auto& solid : scene_.solids)
+      for (const auto& part : solid.parts) {
+        const PartInfo& info = parts_[condition.size()];
+        std::vector<double> acting;
+        for (int a = 0; a < Dim; ++a)
+          for (const auto& pin : scene_.pins)
+            if (pin.axes[a] && selects_all(pin.where, info, part.shape, tolerance)) {
+              acting.push_back(a);
+              for (const auto& list : {pin.displacement, pin.center}) acting.insert(acting.end(), list.begin(), list.end());
+              acting.insert(acting.end(), pin.rotation.begin(), pin.rotation.end());
+            }
+        Vec<Dim + 1> load = Vec<Dim + 1>::Zero(), swing = load;
+        for (const auto& one : scene_.boundary_loads)
+          if (selects_all(one.where, info, part.shape, tolerance)) {
+            Vec<Dim + 1> both;
+            both << one.traction, one.pressure;
+            load += both;
+            swing += one.oscillation.amplitude * both;
+          }
+        acting.insert(acting.end(), load.begin(), load.end());
+        acting.insert(acting.end(), swing.begin(), swing.end());
+        condition.push_back(number.emplace(acting, int(number.size())).first->second);
+      }
+    return condition;
   }
 
   // The solid's material, unless the part in whose region the point lies has its own.
@@ -91,7 +129,7 @@ class Builder {
     for (int k = 0; k < d.quadrature.size(); ++k) {
       const int begin = d.weights.begin[k];
       int n = d.weights.begin[k + 1] - begin;
-      // Corner patches have no material of their own; they come last.
+      // Patches at joints have no material of their own; they come last.
       while (n > 0 && d.weights.part[begin + n - 1] >= d.boundary.n_parts()) --n;
       const int part = n == 0 ? -1 : part_of_region(d.options.stiffness, d.boundary.solid, &d.weights.part[begin], &d.weights.w[begin], n);
       const int m = part >= 0 && own[part] >= 0 ? own[part] : d.quadrature.solid[k];

@@ -7,6 +7,7 @@
 #include "sem/base/error.h"
 #include "sem/base/rotation.h"
 #include "sem/mechanics/loads.h"
+#include "sem/nurbs/closest.h"
 #include "sem/nurbs/hits.h"
 
 namespace sem {
@@ -164,7 +165,8 @@ ClampedPoints<Dim> Pins<Dim>::clamped_points(const BoundaryRule<Dim>& rule, cons
     points.normal.col(k) = rule.normal.col(s);
     points.held.col(k) = held_axes(held[k].pin);
     points.weight[k] = samples.weight[s];
-    const double size = std::min(std::pow(measure, 1.0 / (Dim - 1)), depth_below(samples.position.col(s), rule.normal.col(s)));
+    const Vec<Dim> X = samples.position.col(s);
+    const double size = std::min({std::pow(measure, 1.0 / (Dim - 1)), depth_below(X, rule.normal.col(s)), patch_size(X)});
     points.penalty[k] = scene_.clamp_penalty * degree * degree / size;
     points.material.push_back(*parts_[part].material);
   }
@@ -217,6 +219,23 @@ double Pins<Dim>::depth_below(const Vec<Dim>& X, const Vec<Dim>& normal) const {
     for (const auto& hit : hits) depth = std::min(depth, hit.t);
   }
   return depth;
+}
+
+// The length over which the functions of patches vary at X, m: its distance to the joint, or the radius of the
+// smallest patch there.
+template <int Dim>
+double Pins<Dim>::patch_size(const Vec<Dim>& X) const {
+  double size = std::numeric_limits<double>::infinity();
+  for (size_t p = 0; p < d_.patches.size(); ++p) {
+    const auto& patch = d_.patches[p];
+    // The smallest at a joint is the last one there.
+    if (p + 1 < d_.patches.size() && d_.patches[p + 1].a == patch.a && d_.patches[p + 1].b == patch.b) continue;
+    const double reach = patch.radius * std::ldexp(1, patch.level);
+    const double r = std::hypot(closest_point(d_.boundary.parts[patch.a], X, reach).distance,
+                                closest_point(d_.boundary.parts[patch.b], X, reach).distance);
+    if (r < reach) size = std::min(size, std::max(r, patch.radius));
+  }
+  return size;
 }
 
 template <int Dim>

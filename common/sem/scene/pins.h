@@ -64,6 +64,7 @@ class Pins {
   Eigen::RowVectorXd pin_row(int pin, const Vec<Dim>& X) const;
   void subtract_pins(const std::vector<HeldSample>& held, const Points<Dim>& position, MapBlock<Dim>& block) const;
   double depth_below(const Vec<Dim>& X, const Vec<Dim>& normal) const;
+  double patch_size(const Vec<Dim>& X) const;
   HeldControl<Dim> spring(int control, int pin) const;
   Vec<Dim> held_axes(int pin) const;
   int part_of_control(int control) const;

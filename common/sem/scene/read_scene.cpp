@@ -121,6 +121,7 @@ void describe_method(Fields& fields, MethodOptions& m) {
   // What converges is the default of the formulation that is meant to.
   if (fields.reading() && m.formulation == Formulation::condensed) {
     m.weights.variant = DistanceWeight::sided;
+    m.patch_levels = usual_patch_levels<Dim>;
     m.interior_rule.rule = InteriorRule::resolved;
   }
   fields.integer("degree", m.projection.degree, 1, 4, "n, degree of the deformation polynomials");
@@ -156,7 +157,7 @@ void describe_method(Fields& fields, MethodOptions& m) {
   fields.object("weights", "blending weights", [&](Fields& f) {
     f.choice("distance", m.weights.variant, {"published", "draft", "distance_only", "sided"}, "formula of the distance weight theta; default with condensed: sided");
     f.number("side_ramp", m.weights.side_ramp, {0, 1, true, false}, "", "s of the sided weight: it ends where the cosine to the inner normal is -s");
-    f.integer("corner_levels", m.corner_levels, 0, 6, "patches at each re-entrant corner (condensed)");
+    f.integer("patch_levels", m.patch_levels, 0, 8, "patches at each joint that is re-entrant or where pins or boundary loads change, each half the one before (condensed)");
     if (f.optional("sparsity", m.weights.sparsity.has_value())) {
       if (f.reading() && f.optional("cutoff", false)) f.reject("cutoff", "both cutoff and sparsity", "one of them");
       if (!m.weights.sparsity) m.weights.sparsity = 0.3;

@@ -35,6 +35,17 @@ bool in_box(const Box<Dim>& box, const Vec<Dim>& X, double tolerance) {
 }
 
 template <int Dim>
+bool selects_all(const Selector<Dim>& where, const PartInfo& part, const Nurbs<Dim - 1, Dim>& shape, double tolerance) {
+  if (!where.part.empty() && !matches_part(where.part, part)) return false;
+  const std::set<int> listed(where.control_points.begin(), where.control_points.end());
+  if (!listed.empty() && int(listed.size()) < int(shape.control_points.cols())) return false;
+  if (!where.box) return true;
+  for (int c = 0; c < int(shape.control_points.cols()); ++c)
+    if (!in_box(*where.box, Vec<Dim>(shape.control_points.col(c)), tolerance)) return false;
+  return true;
+}
+
+template <int Dim>
 std::vector<int> select_controls(const Boundary<Dim>& boundary, const std::vector<PartInfo>& parts,
                                  const Selector<Dim>& where, const std::string& file, const std::string& field) {
   const Points<Dim> p = rest_controls(boundary);
@@ -63,6 +74,7 @@ std::vector<int> select_controls(const Boundary<Dim>& boundary, const std::vecto
 #define SEM_INSTANTIATE(Dim)                                                                          \
   template std::vector<PartInfo> part_infos<Dim>(const Scene<Dim>&);                                   \
   template bool in_box<Dim>(const Box<Dim>&, const Vec<Dim>&, double);                                 \
+  template bool selects_all<Dim>(const Selector<Dim>&, const PartInfo&, const Nurbs<Dim - 1, Dim>&, double);           \
   template std::vector<int> select_controls<Dim>(const Boundary<Dim>&, const std::vector<PartInfo>&,   \
                                                  const Selector<Dim>&, const std::string&, const std::string&);
 SEM_INSTANTIATE(2)

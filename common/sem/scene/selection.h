@@ -26,6 +26,10 @@ bool matches_part(const std::string& selected, const PartInfo& part);
 template <int Dim>
 bool in_box(const Box<Dim>& box, const Vec<Dim>& X, double tolerance);
 
+/// True if the selector means all of a part, to a tolerance of its box, m.
+template <int Dim>
+bool selects_all(const Selector<Dim>& where, const PartInfo& part, const Nurbs<Dim - 1, Dim>& shape, double tolerance);
+
 /// Control points selected, with all that coincide with them, ascending. Throws InputError(file, field, ...) for
 /// indices that a part does not have.
 template <int Dim>
