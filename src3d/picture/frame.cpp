@@ -35,7 +35,8 @@ double lowest(const std::vector<Vec<3>>& points, const Vec<3>& up) {
 // Where a control point's basis function has its middle: the means of its knots (Greville), u and
 // v.
 Vec<2> middle_parameters(const Nurbs<2, 3>& nurbs, int control) {
-  const int n_u = int(nurbs.knots[0].size()) - nurbs.degree[0] - 1, index[] = {control % n_u, control / n_u};
+  const int n_u = int(nurbs.knots[0].size()) - nurbs.degree[0] - 1,
+            index[] = {control % n_u, control / n_u};
   Vec<2> u;
   for (int a = 0; a < 2; ++a) {
     const int p = nurbs.degree[a];
@@ -190,8 +191,10 @@ class SolidPainter::Drawing {
       while (c >= b.first_control[i + 1]) ++i;
       const int n_held = held[c][0] + held[c][1] + held[c][2];
       if (n_held == 0) continue;
-      const Vec<3> X =
-          point(deformed_[i], middle_parameters(b.parts[i].nurbs, c - b.first_control[i]));
+      Param<2> u = middle_parameters(b.parts[i].nurbs, c - b.first_control[i]);
+      const auto& region = b.parts[i].region;
+      if (region && !region->contains(u)) u = region->border_near(u).u;
+      const Vec<3> X = point(deformed_[i], u);
       result_.spheres.push_back({X, size, picture::pin_color});
       for (int a = 0; a < 3; ++a) {
         if (held[c][a]) continue;

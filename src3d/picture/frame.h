@@ -13,9 +13,9 @@ namespace sem {
 
 /// Draws states of one scene, all from the same camera, which frames the visited_box; up is against
 /// gravity. Lines along the ends of parts; those of the rest shape faint; pins in red: for a
-/// control point that is held a ball on the surface, where its basis function has its middle, and a
-/// bar along the directions that it may slide. A white ground at the lowest place visited receives
-/// shadows.
+/// control point that is held a ball on the surface, where its basis function has its middle (of a
+/// trimmed part within its trims), and a bar along the directions that it may slide. A white ground
+/// at the lowest place visited receives shadows.
 ///
 /// The surface shows the von Mises stress of the quadrature points: at a vertex the mean over the
 /// nearest ones of its solid at rest, weighted by distance. The colour scale is that of the 2D
