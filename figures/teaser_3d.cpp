@@ -13,7 +13,7 @@ struct Shown {
 const Shown all_shown[] = {{"torus", "torus", 0.5, {}},
                            {"rocket", "rocket", 0.3, {"loads[0].force=[14000,0,0]"}},
                            {"cube", "cube", 0.4, {}},
-                           {"mug", "mug", 0, {"loads[0].traction=[6000,0,-6000]"}},
+                           {"mug", "mug", 0, {"loads[0].traction=[12000,0,-12000]"}},
                            {"beam_condensed", "beam", 0, {}}};
 const render::ViewDirection view{.from = {0.5, -1, 0.42}};
 
