@@ -137,7 +137,7 @@ void describe_method(Fields& fields, MethodOptions& m) {
   fields.object("quadrature", "interior quadrature", [&](Fields& f) {
     f.choice("method", m.interior_rule.rule, {"rays", "split_rays", "fans", "exact", "resolved"},
              "rays: the grid below (the paper's); the others reach a tolerance with few points: rays between critical values, a fan about an ellipse where one applies, the cheaper of both; resolved: cells refined until they resolve the weights, default with condensed");
-    f.number("weight_tolerance", m.interior_rule.weight_tolerance, inside_of(0, 1), "", "resolved: relative change that refining cells may still bring; in space 0.01 unless said");
+    f.number("weight_tolerance", m.interior_rule.weight_tolerance, inside_of(0, 1), "", "resolved: relative change that refining cells may still bring; in space 0.003 unless said");
     f.number("tolerance", m.interior_rule.tolerance, inside_of(0, 1), "", "not rays: relative error of smooth integrands (moments to degree 6, exp, waves)");
     f.number("waves", m.interior_rule.waves, inside_of(0, 1000), "", "not rays: waves over the body's largest extent that are resolved");
     f.integer("fit", m.interior_rule.fit, 0, 20, "> 0: new weights >= 0 that match the boundary's own moments to this degree");
