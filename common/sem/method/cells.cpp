@@ -28,10 +28,12 @@ template <int Dim>
 class CellTuner {
  public:
   CellTuner(const std::vector<Cell<Dim>>& cells, const Yardstick<Dim>& yardstick)
-      : cells_(cells), yardstick_(yardstick), n_(cells.size()) {}
+      : cells_(cells), yardstick_(yardstick), n_(cells.size(), -1) {}
 
-  // As many strands as have errors of at most `local` in each cell, or the best there are.
-  void choose_strands(double local) {
+  // As many strands as have errors of at most `local` in each cell, or the best there are. False if these are
+  // the ones chosen before.
+  bool choose_strands(double local) {
+    bool changed = false;
     for (size_t c = 0; c < cells_.size(); ++c) {
       const auto& trials = cells_[c].trials;
       auto chosen = std::find_if(trials.begin(), trials.end(),
@@ -39,8 +41,10 @@ class CellTuner {
       if (chosen == trials.end())
         chosen = std::min_element(trials.begin(), trials.end(),
                                   [](const auto& s, const auto& t) { return s.error < t.error; });
+      changed |= n_[c] != int(chosen - trials.begin());
       n_[c] = int(chosen - trials.begin());
     }
+    return changed;
   }
 
   double error_of_strands() const {
@@ -149,8 +153,7 @@ CellRule<Dim> cheapest_rule(const std::vector<Cell<Dim>>& cells, const Yardstick
   int fewest = std::numeric_limits<int>::max();
   // From many points on few strands to few points on many.
   for (; strands > tightest; strands /= step) {
-    tuner.choose_strands(strands);
-    if (tuner.error_of_strands() > yardstick.tolerance) continue;
+    if (!tuner.choose_strands(strands) || tuner.error_of_strands() > yardstick.tolerance) continue;
     while (points < loosest) {
       int n_points = 0;
       if (tuner.deviation(points, n_points).cwiseAbs().maxCoeff() > yardstick.tolerance) break;
