@@ -14,8 +14,9 @@
 //
 // No clamp, no corner that attracts stress: what is left is the map's error and the rule's.
 // The nearest F is that of the least error (c): what the functions could do if the load, and so
-// the rule, were no matter (projected: its stability term included). Step 14 of the plane explains why the paper's formulation does not
-// converge: its F is not the gradient of its x. Here are its numbers in space.
+// the rule, were no matter (projected: its stability term included). Step 14 of the plane explains
+// why the paper's formulation does not converge: its F is not the gradient of its x. Here are its
+// numbers in space.
 //
 // Things to try: --set points=8 and --set points=16: the weights of smaller parts have more kinks
 // inside, and in [3] the rule does not resolve them: the nearest F improves, the answer does not.
