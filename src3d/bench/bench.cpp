@@ -1,11 +1,12 @@
-// sem_bench: what the geometry kernels and the built-in scenes cost, and how far a step is from what the machine
-// allows.
+// sem_bench: what the geometry kernels and the built-in scenes cost, and how far a step is from
+// what the machine allows.
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <nlohmann/json.hpp>
 
 #include "kernels.h"
+#include "published.h"
 #include "scenes.h"
 #include "sem/base/version.h"
 #include "sem/scene/json_text.h"
@@ -29,7 +30,8 @@ Json tasks_json(const SceneTime& scene, const Machine& machine) {
   return json;
 }
 
-void print_json(const Machine& machine, const std::vector<KernelTime>& kernels, const std::vector<SceneTime>& scenes) {
+void print_json(const Machine& machine, const std::vector<KernelTime>& kernels,
+                const std::vector<SceneTime>& scenes) {
   Json json{{"version", version}, {"build_type", build_type}, {"compiler", compiler}};
   json["machine"] = {{"flops_per_second", machine.flops}, {"bytes_per_second", machine.bytes}};
   for (const auto& kernel : kernels) {
@@ -55,7 +57,8 @@ void print_json(const Machine& machine, const std::vector<KernelTime>& kernels, 
 }
 
 void print_kernels(const std::vector<KernelTime>& kernels) {
-  std::printf("%-40s %10s %10s %12s %7s\n", "geometry kernel", "ns/call", "target ns", "textbook ns", "ratio");
+  std::printf("%-40s %10s %10s %12s %7s\n", "geometry kernel", "ns/call", "target ns",
+              "textbook ns", "ratio");
   for (const auto& kernel : kernels) {
     std::printf("%-40s %10.1f", kernel.name.c_str(), 1e9 * kernel.seconds);
     kernel.target > 0 ? std::printf(" %10.0f", 1e9 * kernel.target) : std::printf(" %10s", "");
@@ -66,11 +69,12 @@ void print_kernels(const std::vector<KernelTime>& kernels) {
 }
 
 void print_scenes(const Machine& machine, const std::vector<SceneTime>& scenes) {
-  std::printf("\n%-20s %6s %9s %7s %15s %20s %10s %7s\n", "scene", "parts", "unknowns", "points", "preprocess ms",
-              "solve ms", "bound ms", "factor");
+  std::printf("\n%-20s %6s %9s %7s %15s %20s %10s %7s\n", "scene", "parts", "unknowns", "points",
+              "preprocess ms", "solve ms", "bound ms", "factor");
   for (const auto& scene : scenes) {
-    std::printf("%-20s %6d %9d %7d %15.2f %9.3f a %-8s", scene.name.c_str(), scene.n_parts, scene.n_unknowns,
-                scene.n_points, 1e3 * scene.preprocessing, 1e3 * scene.solve, scene.analysis.c_str());
+    std::printf("%-20s %6d %9d %7d %15.2f %9.3f a %-8s", scene.name.c_str(), scene.n_parts,
+                scene.n_unknowns, scene.n_points, 1e3 * scene.preprocessing, 1e3 * scene.solve,
+                scene.analysis.c_str());
     const double bound = scene.bound(machine);
     if (bound > 0) std::printf(" %10.3f %7.1f", 1e3 * bound, scene.solve / bound);
     std::printf("\n");
@@ -86,26 +90,48 @@ void print_scenes(const Machine& machine, const std::vector<SceneTime>& scenes) 
 
 // Bounds: matrix products and factors at the machine's best rate, see Work and Machine.
 void print_tasks(const Machine& machine, const std::vector<SceneTime>& scenes) {
-  std::printf("\nbounds: %.1f GFlop/s (product of dense matrices), %.1f GB/s (copy), one thread\n", 1e-9 * machine.flops,
-              1e-9 * machine.bytes);
-  std::printf("%-20s %-14s %8s %10s %10s %10s %10s %6s %7s\n", "scene", "task", "calls", "ms/call", "MFlop", "MB",
-              "bound ms", "by", "factor");
+  std::printf("\nbounds: %.1f GFlop/s (product of dense matrices), %.1f GB/s (copy), one thread\n",
+              1e-9 * machine.flops, 1e-9 * machine.bytes);
+  std::printf("%-20s %-14s %8s %10s %10s %10s %10s %6s %7s\n", "scene", "task", "calls", "ms/call",
+              "MFlop", "MB", "bound ms", "by", "factor");
   for (const auto& scene : scenes)
     for (const auto& [name, task] : scene.tasks) {
       const double n = double(task.n), bound = machine.bound(task.work);
-      std::printf("%-20s %-14s %8ld %10.4f %10.3f %10.3f %10.4f %6s %7.1f\n", scene.name.c_str(), name.c_str(), task.n,
-                  1e3 * task.seconds / n, 1e-6 * task.work.flops / n, 1e-6 * task.work.bytes / n, 1e3 * bound / n,
-                  machine.bound_by(task.work), bound > 0 ? task.seconds / bound : 0);
+      std::printf("%-20s %-14s %8ld %10.4f %10.3f %10.3f %10.4f %6s %7.1f\n", scene.name.c_str(),
+                  name.c_str(), task.n, 1e3 * task.seconds / n, 1e-6 * task.work.flops / n,
+                  1e-6 * task.work.bytes / n, 1e3 * bound / n, machine.bound_by(task.work),
+                  bound > 0 ? task.seconds / bound : 0);
     }
+}
+
+// Beside the paper's times, which are those of another machine.
+void print_published(const std::vector<PublishedTime>& times) {
+  std::printf("%-12s %9s %9s %7s %6s %14s %9s %9s %6s %12s %13s\n", "scene", "published",
+              "unknowns", "points", "fill %", "published ms", "step ms", "1 / aim", "1 /",
+              "factor ms", "preprocess ms");
+  for (const auto& [name, n_unknowns, step, aim, own] : times) {
+    double factorization = 0;
+    for (const auto& [task_name, task] : own.tasks)
+      if (task_name == "factorization") factorization = task.seconds / double(own.n_solves);
+    std::printf("%-12s %9d %9d %7d %6.0f %14.0f %9.2f %9.0f %6.0f %12.2f %13.0f\n", name.c_str(),
+                n_unknowns, own.n_unknowns, own.n_points, 100 * own.fill, 1e3 * step,
+                1e3 * own.solve, 1 / aim, step / own.solve, 1e3 * factorization,
+                1e3 * own.preprocessing);
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) try {
   const bool json = argc == 2 && !std::strcmp(argv[1], "--json");
-  if (argc > 1 && !json) {
-    std::fprintf(stderr, "usage: sem_bench [--json]\n");
+  const bool published = argc == 2 && !std::strcmp(argv[1], "--published");
+  if (argc > 1 && !json && !published) {
+    std::fprintf(stderr, "usage: sem_bench [--json | --published]\n");
     return 2;
+  }
+  if (published) {
+    print_published(time_published());
+    return 0;
   }
   const auto kernels = time_kernels();
   const Machine machine = measure_machine();

@@ -92,21 +92,6 @@ void time_solve(const Scene<Dim>& scene, const Model<Dim>& model, SceneTime& tim
   time.solve = thread_seconds() - start;
 }
 
-template <int Dim>
-SceneTime time_scene(const Scene<Dim>& scene) {
-  SceneTime time;
-  time.name = scene.name;
-  time.analysis = scene.analysis.kind == AnalysisKind::dynamics  ? "step"
-                  : scene.analysis.kind == AnalysisKind::statics ? "statics"
-                                                                 : "modes";
-  const auto model = time_preprocessing(scene, time);
-  time.n_parts = model->discretization.boundary.n_parts();
-  time.n_unknowns = model->n_unknowns();
-  time.n_points = model->discretization.quadrature.size();
-  time_solve(scene, *model, time);
-  return time;
-}
-
 // The least of a few calls.
 template <class Call>
 double seconds_at_best(const Call& call) {
@@ -143,6 +128,23 @@ double SceneTime::bound(const Machine& machine) const {
 }
 
 template <int Dim>
+SceneTime time_scene(const Scene<Dim>& scene) {
+  SceneTime time;
+  time.name = scene.name;
+  time.analysis = scene.analysis.kind == AnalysisKind::dynamics  ? "step"
+                  : scene.analysis.kind == AnalysisKind::statics ? "statics"
+                                                                 : "modes";
+  const auto model = time_preprocessing(scene, time);
+  time.n_parts = model->discretization.boundary.n_parts();
+  time.n_unknowns = model->n_unknowns();
+  time.n_points = model->discretization.quadrature.size();
+  const auto plan = model->system.potential->new_hessian().plan();
+  if (plan) time.fill = plan->fill();
+  time_solve(scene, *model, time);
+  return time;
+}
+
+template <int Dim>
 std::vector<SceneTime> time_scenes() {
   std::vector<SceneTime> times;
   for (const auto& builtin : builtin_scenes<Dim>()) {
@@ -153,6 +155,8 @@ std::vector<SceneTime> time_scenes() {
   return times;
 }
 
+template SceneTime time_scene(const Scene<2>&);
+template SceneTime time_scene(const Scene<3>&);
 template std::vector<SceneTime> time_scenes<2>();
 template std::vector<SceneTime> time_scenes<3>();
 

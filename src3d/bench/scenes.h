@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sem/method/discretization.h"
+#include "sem/scene/scene.h"
 #include "sem/solve/work.h"
 
 namespace sem {
@@ -30,6 +30,7 @@ struct SceneTime {
   std::string name, analysis;
   int n_parts = 0, n_unknowns = 0, n_points = 0;
   std::vector<StageCost> stages;  ///< medians of a few builds, elapsed
+  double fill = 1;                ///< of the Hessian's factor: share of the entries of a full one
   double preprocessing = 0;       ///< their sum, s
   double solve = 0;               ///< processor time of a step (dynamic, median) or of the whole analysis, s
   long n_solves = 1;              ///< steps that `tasks` are of, or 1
@@ -38,6 +39,11 @@ struct SceneTime {
   /// The least time of all tasks of a step or analysis, s.
   double bound(const Machine& machine) const;
 };
+
+/// A scene built, and its analysis run: dynamic ones for 200 steps or 5 s of processor time. Throws
+/// std::runtime_error if it fails.
+template <int Dim>
+SceneTime time_scene(const Scene<Dim>& scene);
 
 /// The built-in scenes of a dimension; of 3D those that are dynamic.
 template <int Dim>

@@ -262,4 +262,4 @@ int main(int argc, char** argv) {
       });
   return lesson.run(argc, argv);
 }
-// Next: your own scene: start from `sem3d export torus > mine.json`.
+// Next: step_08_convergence, a known answer.
