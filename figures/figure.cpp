@@ -36,6 +36,7 @@ const std::vector<Figure>& all_figures() {
                                               beam_sparsity(),
                                               twist(),
                                               gallery_3d(),
+                                              cad_models(),
                                               teaser_3d()};
   return figures;
 }

@@ -76,6 +76,7 @@ Figure growing_beam();
 Figure beam_sparsity();
 Figure twist();
 Figure gallery_3d();
+Figure cad_models();
 Figure teaser_3d();
 
 }  // namespace sem::figures

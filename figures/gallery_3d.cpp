@@ -1,6 +1,7 @@
 // All scenes in space, deformed, coloured by stress.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "figures/solid_states.h"
 #include "sem/base/error.h"
@@ -13,8 +14,10 @@ struct Shown {
   const char* scene;
   double time;  // s, of a dynamic scene
 };
-const Shown scenes[] = {{"cube", 0.4}, {"torus", 0.4},        {"tyre", 0.13}, {"rocket", 0.3},
-                        {"beam", 0.8}, {"beam_condensed", 0}, {"twist", 0},   {"mug", 0}};
+const Shown scenes[] = {{"cube", 0.4},      {"torus", 0.4},    {"tyre", 0.13},
+                        {"rocket", 0.3},    {"beam", 0.8},     {"twist", 0},
+                        {"animal", 0.5},    {"castle", 0.34},  {"mug", 0},
+                        {"mug_trimmed", 0}, {"mug_free", 0.1}, {"beam_condensed", 0}};
 constexpr int n_columns = 4;
 
 State shown_state(SolidModel& solid, double time) {
@@ -31,7 +34,7 @@ Data compute() {
     SolidModel solid(shown.scene, {"probes=[]"});
     const State state = shown_state(solid, shown.time);
     times.add({state.time});
-    add_body(data, shown.scene, *solid.model);
+    add_body(data, shown.scene, *solid.model, solid.scene.solids);
     add_state(data, std::string(shown.scene) + " deformed", *solid.model, state);
   }
   data.add("times", times.columns()) = times;
@@ -51,19 +54,21 @@ void draw_scene(Panel& panel, const Data& data, int number) {
   panel.lines_below = {(time > 0 ? "t = " + number_text(time, 2) + " s, " : "static, ") + "to " +
                        stress_text(largest)};
   const ColorScale scale{0, largest};
-  Box<3> box = box_of(data, state);
-  for (const auto& part : surfaces_of(data, name + " "))
-    for (Eigen::Index c = 0; c < part.control_points.cols(); ++c)
-      box.include(Vec<3>(part.control_points.col(c)));
-  const auto scene = [data, name, state, scale, box](double point) {
-    auto result = stressed(solid_state_of(data, name, state), scale, point);
-    auto rest = lines_of(surfaces_of(data, name + " "), 0, {0.6, 0.6, 0.63}, 0.4 * point);
-    rest.hidden = 0.15;
-    result.lines.push_back(std::move(rest));
-    result.ground = box.lower[2];
+  const SolidState deformed = solid_state_of(data, name, state);
+  const auto rest = surfaces_of(data, name + " ");
+  auto seen = seen_points(deformed.parts, deformed.trims);
+  double ground = std::numeric_limits<double>::infinity();
+  for (const auto& X : seen) ground = std::min(ground, X[2]);
+  for (const auto& X : seen_points(rest, deformed.trims)) seen.push_back(X);
+  const auto scene = [deformed, rest, scale, ground](double point) {
+    auto result = stressed(deformed, scale, point);
+    auto lines = lines_of(rest, 0, {0.6, 0.6, 0.63}, 0.4 * point, deformed.trims);
+    lines.hidden = 0.15;
+    result.lines.push_back(std::move(lines));
+    result.ground = ground;
     return result;
   };
-  draw_view(panel, {scene, render::corners(box), {.from = {0.5, -1, 0.42}}, {}, true});
+  draw_view(panel, {scene, seen, {.from = {0.5, -1, 0.42}}, {}, true});
 }
 
 void draw(Plot& plot, const Data& data) {
@@ -79,7 +84,7 @@ Figure gallery_3d() {
                 "The scenes of sem3d, deformed; gray lines: at rest. Colours are the von Mises "
                 "stress, each scene's scale ending where the text below says",
                 7,
-                4.1,
+                5.8,
                 compute,
                 draw};
   figure.slow = true;

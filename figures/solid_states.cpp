@@ -57,8 +57,13 @@ std::vector<Nurbs<2, 3>> parts_of(const Model<3>& model, const State& state) {
   return parts;
 }
 
-void add_body(Data& data, const std::string& name, const Model<3>& model) {
+void add_body(Data& data, const std::string& name, const Model<3>& model,
+              const std::vector<SceneSolid<3>>& solids) {
   add_surfaces(data, parts_of(model, model.initial), name + " ");
+  Trims trims;
+  for (const auto& solid : solids)
+    for (const auto& part : solid.parts) trims.push_back(part.trims);
+  add_trims(data, trims, name + " ");
 }
 
 void add_state(Data& data, const std::string& name, const Model<3>& model, const State& state) {
@@ -97,13 +102,14 @@ SolidState solid_state_of(const Data& data, const std::string& body, const std::
     result.stress.push_back(run["von_mises"]);
   for (const double value : data[state + " stress"]["von_mises"])
     if (value > result.largest) result.largest = value;
+  result.trims = trims_of(data, int(result.parts.size()), body + " ");
   return result;
 }
 
 render::RenderScene stressed(const SolidState& state, const ColorScale& scale, double point) {
   render::RenderScene scene;
   scene.meshes = meshes_of(
-      state.parts, [](int) { return colors::gray; }, 8);
+      state.parts, [](int) { return colors::gray; }, 8, state.trims);
   for (std::size_t i = 0; i < state.parts.size(); ++i) {
     const Param<2> lower = at_share(state.parts[i], 0, 0), upper = at_share(state.parts[i], 1, 1);
     auto& mesh = scene.meshes[i];
@@ -111,7 +117,7 @@ render::RenderScene stressed(const SolidState& state, const ColorScale& scale, d
       mesh.colors.push_back(scale(
           interpolated(state.stress[i], Vec<2>((u - lower).array() / (upper - lower).array()))));
   }
-  scene.lines.push_back(lines_of(state.parts, 0, {0.1, 0.1, 0.12}, 0.5 * point));
+  scene.lines.push_back(lines_of(state.parts, 0, {0.1, 0.1, 0.12}, 0.5 * point, state.trims));
   return scene;
 }
 

@@ -1,9 +1,11 @@
 #include "figures/solid_view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
 
+#include "sem/method/trims.h"
 #include "src3d/render/renderer.h"
 #include "src3d/render/tessellate.h"
 
@@ -16,6 +18,12 @@ Box<3> control_box(const std::vector<Nurbs<2, 3>>& parts) {
     for (Eigen::Index c = 0; c < part.control_points.cols(); ++c)
       box.include(Vec<3>(part.control_points.col(c)));
   return box;
+}
+
+PreparedNurbs<2, 3> prepared(const Nurbs<2, 3>& part, const Trims& trims, std::size_t i) {
+  auto result = prepare(part);
+  if (i < trims.size()) result.region = make_region<3>(result, trims[i]);
+  return result;
 }
 
 // One for all figures: programs are compiled once.
@@ -75,6 +83,51 @@ std::vector<Nurbs<2, 3>> surfaces_of(const Data& data, const std::string& prefix
   return parts;
 }
 
+void add_trims(Data& data, const Trims& trims, const std::string& prefix) {
+  if (std::all_of(trims.begin(), trims.end(), [](const auto& loops) { return loops.empty(); }))
+    return;
+  DataTable curves({"part", "loop", "curve", "degree"}), knots({"curve", "knot"}),
+      controls({"curve", "u", "v", "w"});
+  int number = 0;
+  for (std::size_t i = 0; i < trims.size(); ++i)
+    for (std::size_t loop = 0; loop < trims[i].size(); ++loop)
+      for (const auto& curve : trims[i][loop]) {
+        curves.add({double(i), double(loop), double(number), double(curve.degree[0])});
+        for (const double knot : curve.knots[0]) knots.add({double(number), knot});
+        for (Eigen::Index c = 0; c < curve.control_points.cols(); ++c)
+          controls.add({double(number), curve.control_points(0, c), curve.control_points(1, c),
+                        curve.weights[c]});
+        ++number;
+      }
+  data.add(prefix + "trims", curves.columns()) = curves;
+  data.add(prefix + "trim knots", knots.columns()) = knots;
+  data.add(prefix + "trim controls", controls.columns()) = controls;
+}
+
+Trims trims_of(const Data& data, int n_parts, const std::string& prefix) {
+  if (!data.has(prefix + "trims")) return {};
+  Trims trims(n_parts);
+  const DataTable& curves = data[prefix + "trims"];
+  const auto knots = data[prefix + "trim knots"].runs("curve"),
+             controls = data[prefix + "trim controls"].runs("curve");
+  for (int k = 0; k < curves.n_rows(); ++k) {
+    Nurbs<1, 2> curve;
+    curve.degree = {int(curves["degree"][k])};
+    curve.knots[0] = knots[k]["knot"];
+    const int n = controls[k].n_rows();
+    curve.control_points.resize(2, n);
+    curve.weights.resize(n);
+    for (int c = 0; c < n; ++c) {
+      curve.control_points.col(c) << controls[k]["u"][c], controls[k]["v"][c];
+      curve.weights[c] = controls[k]["w"][c];
+    }
+    auto& loops = trims[int(curves["part"][k])];
+    loops.resize(std::size_t(curves["loop"][k]) + 1);
+    loops.back().push_back(curve);
+  }
+  return trims;
+}
+
 void draw_view(Panel& panel, SolidView view) {
   panel.frame = false;
   panel.include({0, 0});
@@ -105,24 +158,38 @@ void draw_view(Panel& panel, SolidView view) {
 }
 
 std::vector<render::Mesh> meshes_of(const std::vector<Nurbs<2, 3>>& parts,
-                                    const std::function<Color(int part)>& color, int least_cells) {
+                                    const std::function<Color(int part)>& color, int least_cells,
+                                    const Trims& trims) {
   const render::Flatness flatness{control_box(parts).diagonal() / 3000, least_cells};
   std::vector<render::Mesh> meshes;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    meshes.push_back(tessellate(prepare(parts[i]), flatness));
+    meshes.push_back(tessellate(prepared(parts[i], trims, i), flatness));
     meshes.back().color = color(int(i));
   }
   return meshes;
 }
 
 render::Lines lines_of(const std::vector<Nurbs<2, 3>>& parts, int between, const Color& color,
-                       double width) {
+                       double width, const Trims& trims) {
   const render::Flatness flatness{control_box(parts).diagonal() / 3000};
   render::Lines lines{{}, color, width};
-  for (const auto& part : parts)
-    for (auto& chain : isoparametric_lines(prepare(part), between, between > 0, flatness))
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto part = prepared(parts[i], trims, i);
+    for (auto& chain : part.region ? outline(part, flatness)
+                                   : isoparametric_lines(part, between, between > 0, flatness))
       lines.chains.push_back(std::move(chain));
+  }
   return lines;
+}
+
+std::vector<Vec<3>> seen_points(const std::vector<Nurbs<2, 3>>& parts, const Trims& trims) {
+  const render::Flatness flatness{control_box(parts).diagonal() / 200};
+  std::vector<Vec<3>> points;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto mesh = tessellate(prepared(parts[i], trims, i), flatness);
+    points.insert(points.end(), mesh.position.begin(), mesh.position.end());
+  }
+  return points;
 }
 
 std::vector<Vec<3>> framed(const std::vector<Nurbs<2, 3>>& parts) {

@@ -5,6 +5,7 @@
 
 #include "figures/figure.h"
 #include "sem/nurbs/nurbs.h"
+#include "sem/nurbs/region.h"
 #include "src3d/render/camera.h"
 #include "src3d/render/render_scene.h"
 
@@ -16,6 +17,15 @@ void add_surfaces(Data& data, const std::vector<Nurbs<2, 3>>& parts,
                   const std::string& prefix = "");
 /// What they hold.
 std::vector<Nurbs<2, 3>> surfaces_of(const Data& data, const std::string& prefix = "");
+
+/// What each part is trimmed to; empty: no part is.
+using Trims = std::vector<TrimLoops>;
+/// Adds the tables `trims` (part, loop, curve, degree), `trim knots` (curve, knot) and `trim
+/// controls` (curve, u, v, w), curves of all parts counted from 0, their names led by the prefix;
+/// no table if no part is trimmed.
+void add_trims(Data& data, const Trims& trims, const std::string& prefix = "");
+/// What they hold, for so many parts.
+Trims trims_of(const Data& data, int n_parts, const std::string& prefix = "");
 
 /// A text beside a point of the scene; offset in points, y up.
 struct SolidLabel {
@@ -42,10 +52,13 @@ void draw_view(Panel& panel, SolidView view);
 /// cells along u and v (a power of two), for colours.
 std::vector<render::Mesh> meshes_of(const std::vector<Nurbs<2, 3>>& parts,
                                     const std::function<Color(int part)>& color,
-                                    int least_cells = 1);
-/// Lines along the sides of all parts; `between` lines inside every knot span as well.
+                                    int least_cells = 1, const Trims& trims = {});
+/// Lines along the sides of all parts; `between` lines inside every knot span as well. Of trimmed
+/// parts their borders alone.
 render::Lines lines_of(const std::vector<Nurbs<2, 3>>& parts, int between, const Color& color,
-                       double width);
+                       double width, const Trims& trims = {});
+/// Points of the surfaces as close as outlines need them, to be framed.
+std::vector<Vec<3>> seen_points(const std::vector<Nurbs<2, 3>>& parts, const Trims& trims = {});
 /// Corners of the box of all control points, to be framed.
 std::vector<Vec<3>> framed(const std::vector<Nurbs<2, 3>>& parts);
 

@@ -16,7 +16,8 @@ struct CadPart {
   Nurbs<2, 3> shape;     ///< control points in m
   TrimLoops trims = {};  ///< none where they are the border of the domain
   std::optional<std::array<double, 3>> color = {};  ///< red, green, blue in [0, 1], linear
-  int solid = 0;  ///< faces of one solid or shell of the file; loose faces are one solid together
+  int solid = 0;  ///< faces of one solid or shell of the file; loose faces are one solid together,
+                  ///< or those that a name "solid.2/NAME" leads with the same solid
   bool reversed =
       false;  ///< the file has the outside against the surface's normal; for information
 };
@@ -46,8 +47,9 @@ bool is_cad_file(const std::string& file);
 CadModel read_cad(const std::string& file, bool measure = true);
 
 /// Writes the parts, each as a face with its name and colour, in mm; read_cad gives the same back,
-/// control points to 1e-12 of the size. STEP or IGES by the name's ending. Throws InputError as
-/// read_cad, and for parts that these formats cannot hold (jumps inside, degree above 25).
+/// control points to 1e-12 of the size. Parts of several solids are named "solid.2/NAME" in the
+/// file. STEP or IGES by the name's ending. Throws InputError as read_cad, and for parts that these
+/// formats cannot hold (jumps inside, degree above 25).
 void write_cad(const std::string& file, const std::vector<CadPart>& parts);
 
 /// The solids of a scene from a model, all of one material, named by the file's solids.

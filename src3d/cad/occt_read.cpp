@@ -198,8 +198,12 @@ class FaceFinder {
   void descend(const TopoDS_Shape& shape, const std::string& name,
                const std::optional<std::array<double, 3>>& color, int solid) {
     if (shape.ShapeType() == TopAbs_FACE) {
-      if (solid < 0) solid = loose_solid();
-      faces.push_back({TopoDS::Face(shape), name, color, solid});
+      // A name "solid.2/side.1" is that of write_cad for a face of one of several solids.
+      const size_t end =
+          solid < 0 && name.starts_with("solid.") ? name.find('/') : std::string::npos;
+      if (solid < 0) solid = loose_solid(end == std::string::npos ? "" : name.substr(0, end));
+      faces.push_back({TopoDS::Face(shape), end == std::string::npos ? name : name.substr(end + 1),
+                       color, solid});
       return;
     }
     // Open shells are no solids of their own.
@@ -213,15 +217,16 @@ class FaceFinder {
     }
   }
 
-  int loose_solid() {
-    if (loose_ < 0) loose_ = n_solids++;
-    return loose_;
+  int loose_solid(const std::string& name) {
+    const auto [at, is_new] = loose_.emplace(name, n_solids);
+    n_solids += is_new;
+    return at->second;
   }
 
   Handle(XCAFDoc_ShapeTool) shapes_;
   Handle(XCAFDoc_ColorTool) colors_;
   Labels labels_;
-  int loose_ = -1;
+  std::map<std::string, int> loose_;
 };
 
 // What OpenCASCADE makes of the faces when it sews them, each closed shell by itself.

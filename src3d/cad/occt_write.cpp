@@ -177,13 +177,17 @@ Handle(TDocStd_Document) document_of(const std::vector<CadPart>& parts) {
   XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document);
   const auto shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
   const auto colors = XCAFDoc_DocumentTool::ColorTool(document->Main());
+  const bool several = std::any_of(parts.begin(), parts.end(), [&](const CadPart& part) {
+    return part.solid != parts[0].solid;
+  });
   for (size_t i = 0; i < parts.size(); ++i) {
-    const std::string field = "part '" + parts[i].name + "'";
+    const std::string field = "part '" + parts[i].name + "'",
+                      solid = several ? "solid." + std::to_string(parts[i].solid + 1) + "/" : "";
     check(parts[i].shape, "", field);
     TopoDS_Face face = face_of(parts[i], field);
     if (parts[i].reversed) face.Reverse();
     const TDF_Label label = shapes->AddShape(face, false);
-    TDataStd_Name::Set(label, TCollection_ExtendedString(parts[i].name.c_str(), true));
+    TDataStd_Name::Set(label, TCollection_ExtendedString((solid + parts[i].name).c_str(), true));
     if (const auto& c = parts[i].color)
       colors->SetColor(label, Quantity_Color((*c)[0], (*c)[1], (*c)[2], Quantity_TOC_RGB),
                        XCAFDoc_ColorSurf);

@@ -138,6 +138,52 @@ TEST_CASE("a CAD file alone makes a scene that says what it chose, builds, and t
   CHECK(held_at("-1,-1,-1,0.5,1,0")[0].where.box->upper == Vec<3>(0.5, 1, 0));
 }
 
+TEST_CASE("several solids come back as several from both formats, and names as they were") {
+  if (!has_cad()) return;
+  const test::Folder folder("cad_solids");
+  auto parts = cubes();
+  for (size_t i = 6; i < parts.size(); ++i) parts[i].solid = 1;
+  for (const std::string name : {"two solids.step", "two solids.igs"}) {
+    CAPTURE(name);
+    write_cad(folder / name, parts);
+    const CadModel model = read_cad(folder / name);
+    CHECK(model.n_solids == 2);
+    REQUIRE(model.parts.size() == parts.size());
+    for (size_t i = 0; i < parts.size(); ++i) {
+      CHECK(model.parts[i].solid == parts[i].solid);
+      CHECK(model.parts[i].name == parts[i].name);
+    }
+    const auto scene = scene_of(cad_scene(folder / name, name, {}), folder / name);
+    REQUIRE(scene.solids.size() == 2);
+    CHECK(scene.solids[1].parts.size() == 6);
+    const auto model_of_scene = build_model(scene, name);
+    CHECK(model_of_scene->total_mass() == doctest::Approx(2).epsilon(1e-9));
+    // What a run writes of it.
+    write_cad(folder / ("again " + name), cad_parts(scene.solids));
+    CHECK(read_cad(folder / ("again " + name)).n_solids == 2);
+  }
+}
+
+TEST_CASE("a CAD scene works with its file elsewhere, and on paths with blanks") {
+  if (!has_cad()) return;
+  const test::Folder folder("cad_paths"), other("cad paths elsewhere");
+  auto parts = cubes();
+  parts.resize(6);
+  const std::string file = folder / "my cube.step";
+  write_cad(file, parts);
+  const auto absolute = std::filesystem::absolute(file).string();
+  CHECK(scene_of(with_shape("\"path\": \"" + absolute + "\""), other / "a b.json")
+            .solids[0]
+            .parts.size() == 6);
+  CHECK(scene_of(with_shape("\"path\": \"my cube.step\""), folder / "a b.json")
+            .solids[0]
+            .parts.size() == 6);
+  test::check_names(test::error_of([&] {
+                      scene_of(with_shape("\"path\": \"my cube.step\""), other / "a b.json");
+                    }),
+                    other / "a b.json", {"solids[0].shape.path", "my cube.step"});
+}
+
 TEST_CASE("a CAD file alone: options that are none are refused by name") {
   if (!has_cad()) return;
   const test::Folder folder("cad_alone_bad");

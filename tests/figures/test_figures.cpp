@@ -10,10 +10,12 @@
 #include "figures/blob.h"
 #include "figures/check.h"
 #include "figures/gallery.h"
+#include "figures/solid_view.h"
 #include "folder.h"
 #include "plot/recording.h"
 #include "sem/base/error.h"
 #include "sem/method/boundary_integrals.h"
+#include "trimmed.h"
 
 using namespace sem;
 using namespace sem::figures;
@@ -52,6 +54,35 @@ TEST_CASE("every figure has a name of its own, a caption and a journal's width")
   }
   std::sort(names.begin(), names.end());
   CHECK(std::adjacent_find(names.begin(), names.end()) == names.end());
+}
+
+TEST_CASE("trims come back from a figure's file as they were, parts without any among them") {
+  Trims trims(4);
+  trims[1] = {test::polygon({{-0.9, -0.8}, {0.9, -0.8}, {0.8, 0.9}}),
+              test::circle({0.2, 0.3}, 0.25)};
+  trims[3] = {test::circle({0.1, -0.3}, 0.2, 3)};
+  Data data;
+  add_trims(data, trims, "plate ");
+  const Data read = from_csv(to_csv(data), "trims.csv");
+  const Trims back = trims_of(read, 4, "plate ");
+  REQUIRE(back.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    REQUIRE(back[i].size() == trims[i].size());
+    for (std::size_t loop = 0; loop < trims[i].size(); ++loop) {
+      REQUIRE(back[i][loop].size() == trims[i][loop].size());
+      for (std::size_t k = 0; k < trims[i][loop].size(); ++k) {
+        const auto &one = trims[i][loop][k], &other = back[i][loop][k];
+        CHECK(one.degree == other.degree);
+        CHECK(one.knots == other.knots);
+        CHECK(one.control_points == other.control_points);
+        CHECK(one.weights == other.weights);
+      }
+    }
+  }
+  CHECK(trims_of(read, 4, "another ").empty());
+  Data none;
+  add_trims(none, Trims(3));
+  CHECK(none.tables().empty());
 }
 
 TEST_CASE("the numbers of every figure read back as the same bits") {

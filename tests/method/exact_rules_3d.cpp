@@ -7,6 +7,8 @@
 #include "sem/method/boundary_integrals.h"
 #include "sem/method/exact_rule.h"
 #include "sem/method/moment_rules.h"
+#include "sem/method/sweep_3d.h"
+#include "sem/nurbs/refine.h"
 #include "solids.h"
 
 using namespace sem;
@@ -199,4 +201,50 @@ TEST_CASE(
     CHECK(std::abs(rule.quadrature.weight.sum() / (4 - M_PI * r * r) - 1) < 1e-10);
     CHECK(error_of_moments(block, rule.quadrature) < 1e-10);
   }
+}
+
+TEST_CASE("split rays in space: edges at one height turn back nowhere, whatever the scale rounds") {
+  for (const double factor : {1.0, 0.3, 0.7, 1e6}) {
+    CAPTURE(factor);
+    Parts<3> parts = test::unit_box<3>();
+    for (auto& part : parts) {
+      part = elevate_degree(elevate_degree(part, 0, 2), 1, 1);
+      part.control_points *= factor;
+    }
+    const ExactSolid solid(parts);
+    for (const auto& component : split_into_components(solid.boundary, solid.loops))
+      for (int axis = 0; axis < 3; ++axis) {
+        const Sweep sweep(component, axis, (axis + 1) % 3, (axis + 2) % 3);
+        for (const auto& height : sweep.heights()) CHECK(height.kind == EndKind::smooth);
+      }
+  }
+}
+
+TEST_CASE("split rays in space: rays are split where faces cross") {
+  // Over (0,0) (1,1) (1,0) (0,1): two wedges that meet in the line x = y = 1/2.
+  const auto face = [](const Vec<2>& a, const Vec<2>& b, const Vec<2>& c, const Vec<2>& d) {  // or a floor: z = 0, 1
+    Nurbs<2, 3> made;
+    made.degree = {1, 1};
+    made.knots = {std::vector<double>{0, 0, 1, 1}, {0, 0, 1, 1}};
+    made.control_points.resize(3, 4);
+    made.control_points << a[0], b[0], c[0], d[0], a[1], b[1], c[1], d[1], 0, 0, 0, 0;
+    made.weights.setOnes(4);
+    return made;
+  };
+  const auto lifted = [](Nurbs<2, 3> made, double first, double second) {
+    made.control_points.row(2) << first, first, second, second;
+    return made;
+  };
+  const Vec<2> corner[] = {{0, 0}, {1, 1}, {1, 0}, {0, 1}}, middle(0.5, 0.5);
+  Parts<3> parts;
+  for (int k = 0; k < 4; ++k) parts.push_back(lifted(face(corner[k], corner[(k + 1) % 4], corner[k], corner[(k + 1) % 4]), 0, 1));
+  for (const double z : {0.0, 1.0}) {
+    parts.push_back(lifted(face(corner[0], middle, corner[3], middle), z, z));
+    parts.push_back(lifted(face(corner[1], middle, corner[2], middle), z, z));
+  }
+  const auto rule = ExactSolid(parts).rule(InteriorRule::split_rays);
+  CHECK(std::abs(rule.quadrature.weight.sum() - 0.5) < 1e-12);
+  const auto x = rule.quadrature.position.row(0).array(), y = rule.quadrature.position.row(1).array();
+  CHECK(((x - 0.5).abs() > (y - 0.5).abs() - 1e-12).all());  // left and right, not above and below
+  CHECK(rule.error < 1e-10);
 }

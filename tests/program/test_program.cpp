@@ -359,6 +359,19 @@ TEST_CASE("sem3d: frames as CAD files run as scenes, have info, are exported, an
   CHECK(call<3>(folder, "run mine.json" + quick_cad).code == 0);
   CHECK(content(folder / "out/mine/history.csv") == content(folder / "out/frame_00001/history.csv"));
 
+  // A checkpoint goes on with the file that it was made of and no other.
+  const auto replace_model = [&](const std::string& frame) {
+    fs::copy_file(folder / ("cube/frames/" + frame), folder / "model.step", fs::copy_options::overwrite_existing);
+  };
+  const std::string run_model = "run model.step --no-frames --set output.error_estimate=false analysis.duration=";
+  replace_model("frame_00000.step");
+  CHECK(call<3>(folder, run_model + "0.02").code == 0);
+  CHECK(call<3>(folder, run_model + "0.03 --resume").code == 0);
+  replace_model("frame_00001.step");
+  const Outcome other = call<3>(folder, run_model + "0.04 --resume");
+  CHECK(other.code == 2);
+  CHECK(other.err.find("checkpoint.bin: settings: found a checkpoint of other settings") != std::string::npos);
+
   check_rejected<3>(folder, "run none.step", {"none.step", "no readable file"});
   check_rejected<3>(folder, "run cube --pin top", {"--pin", "the scene 'cube'", "only with a CAD file"});
   check_rejected<3>(folder, "info mine.json --material steel", {"--material", "'mine.json'"});

@@ -263,9 +263,7 @@ TEST_CASE("refused: settings that exclude each other") {
       triangle(R"("method": {"weights": {"cutoff": 1, "sparsity": 0.5}})"),
       "test.json: method.weights.cutoff: found both cutoff and sparsity; allowed: one of them");
   check_error(triangle(R"("pins": [{"part": "mast", "displacement": [1, 0]}])"),
-              "test.json: pins[0].displacement: found a prescribed displacement; allowed: this "
-              "only in a static "
-              "analysis");
+              "test.json: pins[0].duration: found 0 with a prescribed displacement; allowed: > 0 s in a dynamic analysis");
   check_error(triangle(R"("dimension": 3)"),
               "test.json: dimension: found 3; allowed: 2 in this program");
   check_error(triangle(R"("pins": [{"box": {"lower": [1, 0], "upper": [0, 1]}}])"),

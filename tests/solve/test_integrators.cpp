@@ -407,3 +407,37 @@ TEST_CASE("names of integrators go both ways, an unknown one is an input error")
   for (const Integrator method : integrators) CHECK(integrator(name(method)) == method);
   CHECK_THROWS_AS(integrator("explicit_euler", "a.json", "analysis.integrator"), InputError);
 }
+
+TEST_CASE("led pins: a mass on a led spring moves as its closed form says, with the orders of the schemes") {
+  // m z'' + k z = k a - c a'': spring and mass couple z to the led entry a(t) = A (1 - cos w t).
+  const double m = 2, c = 0.3, k = 50, A = 0.2, w = 3, end = 2;
+  struct AnyPotential : Quadratic {  // as one that is not known to be quadratic: by Newton's method
+    bool known = true;
+    bool quadratic() const override { return known; }
+  } potential;
+  static_cast<Quadratic&>(potential) = make_quadratic((MatrixXd(2, 2) << k, -k, -k, k).finished());
+  System system = make_system(potential, VectorXd::Zero(2));
+  system.free = {1};
+  system.mass = (MatrixXd(2, 2) << 1, c, c, m).finished();
+  system.motion = [&](double t) { return VectorXd(VectorXd::Constant(2, A * (1 - std::cos(w * t)))); };
+  // z = A + B cos w t + C cos W t with z(0) = z'(0) = 0.
+  const double W = std::sqrt(k / m), B = -A * (k + c * w * w) / (k - m * w * w), C = -A - B;
+  const double z = A + B * std::cos(w * end) + C * std::cos(W * end);
+  const double v = -B * w * std::sin(w * end) - C * W * std::sin(W * end);
+  for (const bool known : {true, false})
+    for (const Integrator integrator : integrators) {
+      CAPTURE(name(integrator));
+      CAPTURE(known);
+      potential.known = known;
+      const auto errors = [&](int n) {
+        TimeStepper stepper(system, end / n, integrator);
+        State state = at_rest(system);
+        for (int s = 0; s < n; ++s) REQUIRE(stepper.step(state).status == Status::converged);
+        CHECK(state.z[0] == system.motion(state.time)[0]);
+        return Eigen::Vector3d(state.z[1] - z, state.v[1] - v, state.v[0] - A * w * std::sin(w * end));
+      };
+      const Eigen::Vector3d coarse = errors(1000), fine = errors(2000);
+      const double order = integrator == Integrator::implicit_midpoint ? 2 : 1;
+      for (int i = 0; i < 3; ++i) CHECK(std::log2(coarse[i] / fine[i]) == doctest::Approx(order).epsilon(0.05));
+    }
+}

@@ -115,6 +115,8 @@ TEST_CASE("products, sums and entries of a matrix in panels are those of the den
         for (int a = 0; a < components; ++a) expanded(components * i + a, components * j + a) = scalar(i, j);
     const SymmetricMatrix M = from_dense(scalar, plan, 1);
     CHECK((M * x - expanded * x).norm() < 1e-13 * expanded.norm());
+    M.absolute_product(x, y);
+    CHECK((y - expanded.cwiseAbs() * x.cwiseAbs()).norm() < 1e-13 * expanded.norm());
     A.add(0.5, M);
     CHECK((A.dense() - dense - 0.5 * expanded).norm() < 1e-14 * dense.norm());
     // Local matrices, nodes in any order.

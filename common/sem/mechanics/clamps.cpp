@@ -51,6 +51,21 @@ void visit_points(const ClampedPoints<Dim>& points, const VectorXd& z, const dou
   }
 }
 
+// The same block by block.
+template <int Dim, class Visit>
+void visit_blocks(const ClampedPoints<Dim>& points, const VectorXd& z, const double* pressure,
+                  const Visit& visit) {
+  std::vector<HeldPoint<Dim>> held;
+  visit_points<Dim>(points, z, pressure, [&](const HeldPoint<Dim>& p) {
+    if (!held.empty() && &held[0].block != &p.block) {
+      visit(held);
+      held.clear();
+    }
+    held.push_back(p);
+  });
+  if (!held.empty()) visit(held);
+}
+
 // K of the penalty beta/(2h) r . K r, held components only.
 template <int Dim>
 Mat<Dim> penalty_matrix(const HeldPoint<Dim>& p) {
@@ -189,16 +204,9 @@ void Clamps<Dim>::add_gradient(const VectorXd& z, VectorXd& g, const double* pre
 template <int Dim>
 void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, SymmetricMatrix& H,
                               const double* pressure) const {
-  std::vector<HeldPoint<Dim>> held;
-  const auto add_block = [&] {
-    if (!held.empty()) H.add(held[0].block.columns, block_hessian(held, approximate));
-    held.clear();
-  };
-  visit_points<Dim>(points_, z, pressure, [&](const HeldPoint<Dim>& p) {
-    if (!held.empty() && &held[0].block != &p.block) add_block();
-    held.push_back(p);
+  visit_blocks<Dim>(points_, z, pressure, [&](const std::vector<HeldPoint<Dim>>& points) {
+    H.add(points[0].block.columns, block_hessian(points, approximate));
   });
-  add_block();
   MatrixXd sum;
   for (const auto& spring : controls_) {
     const std::vector<int> columns = coupled_columns(spring);
@@ -236,16 +244,27 @@ VectorXd Clamps<Dim>::volume_work(const VectorXd& z) const {
 template <int Dim>
 void Clamps<Dim>::add_volume_work_derivative(const VectorXd& z, const MatrixXd& Q,
                                              MatrixXd& G) const {
-  visit_points<Dim>(points_, z, nullptr, [&](const HeldPoint<Dim>& p) {
-    const auto g = volume_measure<Dim>(p.material.model, p.F);
-    const Vec<Dim> by_residual = -p.weight * p.held.cwiseProduct(g.first * p.normal);
-    const Eigen::Matrix<double, Dim * Dim, 1> q = -p.weight * (g.second * work_direction(p));
-    const Eigen::Map<const Mat<Dim>> by_F(q.data());
-    for (size_t j = 0; j < p.block.columns.size(); ++j) {
-      Vec<Dim> derivative = p.block.value(p.row, j) * by_residual;
-      for (int b = 0; b < Dim; ++b) derivative += p.block.gradient[b](p.row, j) * by_F.col(b);
-      for (int a = 0; a < Dim; ++a)
-        G.col(Dim * p.block.columns[j] + a) += derivative[a] * Q.row(p.index).transpose();
+  visit_blocks<Dim>(points_, z, nullptr, [&](const std::vector<HeldPoint<Dim>>& points) {
+    const MapBlock<Dim>& block = points[0].block;
+    const int n = int(points.size());
+    MatrixXd functions(n, Q.cols());
+    std::array<MatrixXd, Dim> derivative;  // of each component, #points by #columns
+    for (auto& component : derivative) component.resize(n, block.columns.size());
+    for (int k = 0; k < n; ++k) {
+      const HeldPoint<Dim>& p = points[k];
+      const auto g = volume_measure<Dim>(p.material.model, p.F);
+      const Vec<Dim> by_residual = -p.weight * p.held.cwiseProduct(g.first * p.normal);
+      const Eigen::Matrix<double, Dim * Dim, 1> q = -p.weight * (g.second * work_direction(p));
+      const Eigen::Map<const Mat<Dim>> by_F(q.data());
+      functions.row(k) = Q.row(p.index);
+      for (int a = 0; a < Dim; ++a) {
+        derivative[a].row(k) = by_residual[a] * block.value.row(p.row);
+        for (int b = 0; b < Dim; ++b) derivative[a].row(k) += by_F(a, b) * block.gradient[b].row(p.row);
+      }
+    }
+    for (int a = 0; a < Dim; ++a) {
+      const MatrixXd sum = functions.transpose() * derivative[a];
+      for (size_t j = 0; j < block.columns.size(); ++j) G.col(Dim * block.columns[j] + a) += sum.col(Eigen::Index(j));
     }
   });
 }

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "sem/solve/dense_kernels.h"
+
 namespace sem {
 
 using Eigen::MatrixXd;
@@ -56,11 +58,20 @@ void Pressure<Dim>::solve(const VectorXd& g, const VectorXd& clamp_work) {
 }
 
 template <int Dim>
-void Pressure<Dim>::add_to_hessian(MatrixXd& G, SymmetricMatrix& H) const {
-  factor_.solve_factor_in_place(G);
-  std::vector<int> nodes(G.cols() / Dim);
-  std::iota(nodes.begin(), nodes.end(), 0);
-  H.add(nodes, G.transpose() * G);
+void Pressure<Dim>::add_to_hessian(const MatrixXd& G, SymmetricMatrix& H) const {
+  // Columns in the order of elimination, so that the lower triangle of the product is that of H.
+  const auto& position = H.plan()->position;
+  const int n = int(G.cols());
+  MatrixXd ordered(G.rows(), n);
+  for (size_t node = 0; node < position.size(); ++node)
+    ordered.middleCols<Dim>(Dim * position[node]) = G.middleCols<Dim>(Dim * Eigen::Index(node));
+  factor_.solve_factor_in_place(ordered);
+  MatrixXd product = MatrixXd::Zero(n, n);
+  const int rows = int(ordered.rows());
+  dense_kernels().add_lower_product(product.data(), n, ordered.data(), rows, ordered.data(), rows, n, rows);
+  std::vector<int> positions(position.size());
+  std::iota(positions.begin(), positions.end(), 0);
+  H.add_at(positions, product);
 }
 
 template class Pressure<2>;

@@ -47,8 +47,8 @@ class Pressure {
   double half_work() const { return b_.dot(y_) / 2; }
 
   const PressureFunctions<Dim>& functions() const { return functions_; }
-  /// H += G^T M^-1 G, where every unknown meets every other; G (#functions by #entries of z) is overwritten.
-  void add_to_hessian(Eigen::MatrixXd& G, SymmetricMatrix& H) const;
+  /// H += G^T M^-1 G, where every unknown meets every other; G: #functions by #entries of z.
+  void add_to_hessian(const Eigen::MatrixXd& G, SymmetricMatrix& H) const;
 
  private:
   PressureFunctions<Dim> functions_;

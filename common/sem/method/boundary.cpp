@@ -4,6 +4,7 @@
 
 #include "sem/base/error.h"
 #include "sem/method/trims.h"
+#include "sem/nurbs/even_weights.h"
 #include "sem/nurbs/refine.h"
 
 namespace sem {
@@ -34,7 +35,8 @@ Boundary<Dim> make_boundary(const std::vector<std::vector<Nurbs<Dim - 1, Dim>>>&
   boundary.first_control.push_back(0);
   for (int s = 0; s < boundary.n_solids; ++s)
     for (const auto& shape : solids[s]) {
-      auto& part = boundary.parts.emplace_back(prepare(shape));
+      const bool trimmed = !trims.empty() && !trims.at(boundary.parts.size()).empty();
+      auto& part = boundary.parts.emplace_back(prepare(trimmed ? shape : even_weights(shape)));
       if (!trims.empty()) part.region = make_region<Dim>(part, trims.at(boundary.parts.size() - 1));
       boundary.solid.push_back(s);
       boundary.first_control.push_back(boundary.first_control.back() +

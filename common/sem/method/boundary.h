@@ -11,7 +11,7 @@ namespace sem {
 /// The geometry that the method starts from.
 template <int Dim>
 struct Boundary {
-  std::vector<PreparedNurbs<Dim - 1, Dim>> parts;
+  std::vector<PreparedNurbs<Dim - 1, Dim>> parts;  ///< in a parameter in which weights are even (even_weights.h) unless trimmed
   std::vector<int> solid;          ///< #parts: the solid that a part bounds, 0-based
   std::vector<int> first_control;  ///< #parts + 1: where a part's control points start in p
   int n_solids = 0;

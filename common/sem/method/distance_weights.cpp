@@ -5,6 +5,7 @@
 
 #include "sem/base/error.h"
 #include "sem/base/parallel.h"
+#include "sem/method/near_parts.h"
 #include "sem/method/sided_weight.h"
 #include "sem/nurbs/closest.h"
 #include "sem/nurbs/hits.h"
@@ -31,6 +32,7 @@ class Meter {
   Meter(const Boundary<Dim>& boundary, const Loops<Dim>& loops, DistanceWeight variant,
         double max_distance)
       : boundary_(boundary), loops_(loops), variant_(variant), max_distance_(max_distance),
+        near_(boundary, std::max(max_distance, boundary.tolerance())),
         closed_loop_(boundary.n_parts(), -1) {
     if (variant == DistanceWeight::distance_only || variant == DistanceWeight::sided) return;
     for (int l = 0; l < int(loops.loops.size()); ++l) {
@@ -45,15 +47,15 @@ class Meter {
   void measure(const Vec<Dim>& X, std::vector<Pair<Dim>>& pairs) const {
     pairs.clear();
     bool on_boundary = false;
-    for (int i = 0; i < boundary_.n_parts(); ++i) {
+    near_.visit(X, [&](int i) {
       const bool enclosed = closed_loop_[i] >= 0 && inside_loop(boundary_, loops_, closed_loop_[i], X);
       const auto closest = closest_point(boundary_.parts[i], X, enclosed ? infinity : max_distance_);
       const bool on_part = closest.distance <= boundary_.tolerance();
       on_boundary |= on_part;
-      if (!on_part && !enclosed && !(closest.distance < max_distance_)) continue;
+      if (!on_part && !enclosed && !(closest.distance < max_distance_)) return;
       pairs.push_back({i, on_part || enclosed ? 0 : closest.distance, infinity, closest.point,
                        closest.u, on_part ? i : -1});
-    }
+    });
     if (variant_ == DistanceWeight::sided) {
       for (auto& pair : pairs) find_side(X, pair);
       return;
@@ -105,6 +107,7 @@ class Meter {
   const Loops<Dim>& loops_;
   DistanceWeight variant_;
   double max_distance_;
+  NearParts<Dim> near_;
   std::vector<int> closed_loop_;  // the loop that the part is alone, -1
 };
 

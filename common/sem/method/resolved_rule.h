@@ -24,12 +24,12 @@ struct Indicators {
 template <int Dim>
 using IndicatorsAt = std::function<Indicators(const Points<Dim>&)>;
 
-/// What scenes ask of `tolerance` unless they say otherwise. In space a tenth of the points costs
-/// little: a beam of 10 parts at 1e-2 and at 1e-3 has 5120 and 24576 points and deflections 8e-5 apart.
+/// What scenes ask of `tolerance` unless they say otherwise. In space points are dear: a beam of 10 and 14 parts (n = 3, a
+/// thousandth of its weight) sags to 98.1 and 99.7 % of the truth at 3e-3; at 1e-2, with 14, to 104, with patches to 115 %.
 template <int Dim>
 inline constexpr double usual_weight_tolerance = 3e-4;
 template <>
-inline constexpr double usual_weight_tolerance<3> = 1e-2;
+inline constexpr double usual_weight_tolerance<3> = 3e-3;
 
 struct ResolvedOptions {
   int axis = 0;             ///< of the rays

@@ -149,10 +149,18 @@ void Sweep::add_edges(const PreparedNurbs<2, 3>& part, const BezierPiece<2, 3>& 
         constexpr double d = 1e-6;
         return edge.at(std::min(1.0, s + d))[height_] - edge.at(std::max(0.0, s - d))[height_];
       };
+      // An edge at one height rises by rounding alone, which tells nothing.
+      const double farthest =
+          std::max(std::abs(piece.box.lower[height_]), std::abs(piece.box.upper[height_]));
+      const double rounding = 1e-14 * (size_ + farthest);
       edge.stops.push_back(0);
-      for (int k = 0; k < n_edge_samples; ++k) {
-        const double a = double(k) / n_edge_samples, b = double(k + 1) / n_edge_samples;
-        if ((rise(a) > 0) != (rise(b) > 0)) edge.stops.push_back(bisected(rise, a, b));
+      double before = -1;  // the last sample that rises or falls
+      for (int k = 0; k <= n_edge_samples; ++k) {
+        const double s = double(k) / n_edge_samples;
+        if (std::abs(rise(s)) <= rounding) continue;
+        if (before >= 0 && (rise(before) > 0) != (rise(s) > 0))
+          edge.stops.push_back(bisected(rise, before, s));
+        before = s;
       }
       edge.stops.push_back(1);
       edges_.push_back(std::move(edge));
@@ -198,7 +206,8 @@ void Sweep::find_heights() {
   for (const auto& part : component_.boundary.parts)
     if (part.region)
       for (const auto& border : part.region->borders())
-        for (const Vec<3>& end : {border.front(), border.back()}) all.push_back({end[height_], EndKind::smooth});
+        for (const Vec<3>& end : {border.front(), border.back()})
+          all.push_back({end[height_], EndKind::smooth});
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
   for (const auto& height : all) {
     if (heights_.empty() || height.value - heights_.back().value > 1e-10 * size_)

@@ -228,6 +228,7 @@ class Builder {
     model_->held = pins_->held();
     model_->target = pins_->target(system.rest);
     model_->path = pins_->path(system.rest);
+    system.motion = pins_->motion(system.rest);
 
     const auto& d = model_->discretization;
     const double mass = model_->total_mass();

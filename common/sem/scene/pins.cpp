@@ -30,7 +30,7 @@ Pins<Dim>::Pins(const Scene<Dim>& scene, std::vector<PartInfo> parts, const std:
   for (size_t i = 0; i < scene.pins.size(); ++i)
     for (const auto& held : held_columns(int(i)))
       for (int a = 0; a < Dim; ++a)
-        if (held.pin.axes[a]) held_[i].entries.push_back(Dim * held.column + a);
+        if (held.displaced != 0 && held.pin.axes[a]) held_[i].entries.push_back(Dim * held.column + a);
   if (free_entries().empty())
     throw InputError(file, "pins", "all " + std::to_string(Dim * d.unknowns.size()) + " unknowns pinned",
                      "pins that leave something free");
@@ -94,11 +94,13 @@ std::vector<typename Pins<Dim>::HeldColumn> Pins<Dim>::moving_columns() const {
   return moving;
 }
 
-// Where the columns stand at load factor s.
+// Where the columns stand when their pins have done a share s = share(pin) of their way.
 template <int Dim>
-VectorXd Pins<Dim>::led_to(const VectorXd& rest, const std::vector<HeldColumn>& moving, double s) {
+template <class Share>
+VectorXd Pins<Dim>::led_to(const VectorXd& rest, const std::vector<HeldColumn>& moving, const Share& share) {
   VectorXd z = rest;
   for (const auto& [column, pin, axes, arm, displaced] : moving) {
+    const double s = share(pin);
     const Vec<Dim> motion = displaced * s * pin.displacement + (rotation<Dim>(s * pin.rotation) * arm - arm);
     for (int a = 0; a < Dim; ++a)
       if (pin.axes[a]) z[Dim * column + a] += motion[a];
@@ -108,14 +110,27 @@ VectorXd Pins<Dim>::led_to(const VectorXd& rest, const std::vector<HeldColumn>& 
 
 template <int Dim>
 VectorXd Pins<Dim>::target(const VectorXd& rest) const {
-  return led_to(rest, moving_columns(), 1);
+  return led_to(rest, moving_columns(), [](const Pin<Dim>&) { return 1.0; });
 }
 
 template <int Dim>
 PinPath Pins<Dim>::path(const VectorXd& rest) const {
   const auto moving = moving_columns();
   if (std::none_of(moving.begin(), moving.end(), [](const auto& one) { return !one.pin.rotation.isZero(0); })) return {};
-  return [rest, moving](double s) { return led_to(rest, moving, s); };
+  return [rest, moving](double s) { return led_to(rest, moving, [s](const Pin<Dim>&) { return s; }); };
+}
+
+template <int Dim>
+PinPath Pins<Dim>::motion(const VectorXd& rest) const {
+  auto moving = moving_columns();
+  std::erase_if(moving, [](const auto& one) { return one.pin.duration == 0; });
+  if (moving.empty()) return {};
+  return [rest, moving](double time) {
+    return led_to(rest, moving, [time](const Pin<Dim>& pin) {
+      const double r = std::min(1.0, time / pin.duration);
+      return r * r * (3 - 2 * r);
+    });
+  };
 }
 
 template <int Dim>

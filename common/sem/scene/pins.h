@@ -13,7 +13,7 @@ namespace sem {
 /// What a pin holds.
 struct Held {
   std::vector<int> controls;  ///< control points, ascending
-  std::vector<int> entries;   ///< of z: those of the held components, ascending
+  std::vector<int> entries;   ///< of z, ascending: the reactions on them add up to the pin's force
 };
 
 /// The pins of a scene on its body. Projected: the held components of the control points' unknowns are prescribed.
@@ -38,8 +38,10 @@ class Pins {
   Clamps<Dim> clamps() const;
   /// z with the pins where they are led.
   Eigen::VectorXd target(const Eigen::VectorXd& rest) const;
-  /// Of the pins to there; empty if none turns.
+  /// Of the pins to there by the load factor; empty if none turns.
   PinPath path(const Eigen::VectorXd& rest) const;
+  /// Of the pins to there in time (Pin::duration); empty if none moves so.
+  PinPath motion(const Eigen::VectorXd& rest) const;
 
  private:
   struct HeldSample {
@@ -58,7 +60,8 @@ class Pins {
   std::vector<HeldColumn> held_columns(int pin) const;
   std::vector<std::array<bool, Dim>> held_components() const;
   std::vector<HeldColumn> moving_columns() const;
-  static Eigen::VectorXd led_to(const Eigen::VectorXd& rest, const std::vector<HeldColumn>& moving, double s);
+  template <class Share>
+  static Eigen::VectorXd led_to(const Eigen::VectorXd& rest, const std::vector<HeldColumn>& moving, const Share& share);
   std::set<int> hold_samples(const Samples<Dim>& samples, int pin, std::vector<HeldSample>& out) const;
   ClampedPoints<Dim> clamped_points(const BoundaryRule<Dim>& rule, const std::vector<HeldSample>& held) const;
   Eigen::RowVectorXd pin_row(int pin, const Vec<Dim>& X) const;

@@ -137,7 +137,7 @@ void describe_method(Fields& fields, MethodOptions& m) {
   fields.object("quadrature", "interior quadrature", [&](Fields& f) {
     f.choice("method", m.interior_rule.rule, {"rays", "split_rays", "fans", "exact", "resolved"},
              "rays: the grid below (the paper's); the others reach a tolerance with few points: rays between critical values, a fan about an ellipse where one applies, the cheaper of both; resolved: cells refined until they resolve the weights, default with condensed");
-    f.number("weight_tolerance", m.interior_rule.weight_tolerance, inside_of(0, 1), "", "resolved: relative change that refining cells may still bring; in space 0.01 unless said");
+    f.number("weight_tolerance", m.interior_rule.weight_tolerance, inside_of(0, 1), "", "resolved: relative change that refining cells may still bring; in space 0.003 unless said");
     f.number("tolerance", m.interior_rule.tolerance, inside_of(0, 1), "", "not rays: relative error of smooth integrands (moments to degree 6, exp, waves)");
     f.number("waves", m.interior_rule.waves, inside_of(0, 1000), "", "not rays: waves over the body's largest extent that are resolved");
     f.integer("fit", m.interior_rule.fit, 0, 20, "> 0: new weights >= 0 that match the boundary's own moments to this degree");
@@ -212,16 +212,31 @@ void describe_axes(Fields& fields, const char* key, std::array<bool, Dim>& held,
   }
 }
 
+// A pin that moves needs time for it where there is time.
+template <int Dim>
+void check_motion(Fields& fields, const Pin<Dim>& pin, int index, AnalysisKind kind) {
+  const std::string here = "pins[" + std::to_string(index) + "].";
+  const std::string motion = pin.rotation.isZero(0) ? "displacement" : "rotation";
+  if (pin.moves() && kind == AnalysisKind::modes)
+    fields.reject((here + motion).c_str(), "a prescribed " + motion, "this only in a static or dynamic analysis");
+  if (pin.moves() && kind == AnalysisKind::dynamics && pin.duration == 0)
+    fields.reject((here + "duration").c_str(), "0 with a prescribed " + motion, "> 0 s in a dynamic analysis");
+  if (pin.duration > 0 && !(pin.moves() && kind == AnalysisKind::dynamics))
+    fields.reject((here + "duration").c_str(), exact_text(pin.duration), "this only for pins that move in a dynamic analysis");
+}
+
 template <int Dim>
 void describe_pin(Fields& fields, Pin<Dim>& pin) {
   describe_selector(fields, pin.where, true);
   describe_axes<Dim>(fields, "axes", pin.axes, "components held");
-  fields.vector<Dim>("displacement", pin.displacement, "m", "prescribed displacement (static analysis)");
+  fields.vector<Dim>("displacement", pin.displacement, "m", "prescribed displacement");
   std::vector<double> rotation(pin.rotation.begin(), pin.rotation.end());
   fields.numbers("rotation", rotation, DimTraits<Dim>::n_rotations, any_number, "rad",
-                 "prescribed turn about 'center' (static analysis), any number of times: the angle; 3D: times the axis");
+                 "prescribed turn about 'center', any number of times: the angle; 3D: times the axis");
   for (size_t a = 0; a < rotation.size(); ++a) pin.rotation[a] = rotation[a];
   fields.vector<Dim>("center", pin.center, "m", "of the turn");
+  fields.number("duration", pin.duration, at_least(0), "s",
+                "dynamic: how long the pin takes to get there, from rest to rest (r^2 (3 - 2 r), r = t / duration)");
 }
 
 void describe_oscillation(Fields& fields, Oscillation& oscillation) {
@@ -411,11 +426,7 @@ void describe_scene(Fields& fields, Scene<Dim>& scene, const ShapeLibrary<Dim>& 
     if (!names.insert(scene.solids[i].name).second)
       fields.reject("solids", "two solids named '" + scene.solids[i].name + "'", "a name of its own for each");
   }
-  for (size_t i = 0; i < scene.pins.size(); ++i)
-    if (scene.pins[i].moves() && scene.analysis.kind != AnalysisKind::statics) {
-      const std::string motion = scene.pins[i].rotation.isZero(0) ? "displacement" : "rotation";
-      fields.reject(("pins[" + std::to_string(i) + "]." + motion).c_str(), "a prescribed " + motion, "this only in a static analysis");
-    }
+  for (size_t i = 0; i < scene.pins.size(); ++i) check_motion(fields, scene.pins[i], int(i), scene.analysis.kind);
   check_names(fields, scene);
 }
 

@@ -49,11 +49,12 @@ template <int Dim>
 struct Pin {
   Selector<Dim> where;
   std::array<bool, Dim> axes;                  ///< components held
-  /// Prescribed (static analysis only): at load factor s a point X of the pin stands at
-  /// center + R(s rotation) (X - center) + s displacement.
+  /// Prescribed: at load factor s (statics), or at s = r^2 (3 - 2 r) with r = time / duration up to 1 (dynamics),
+  /// a point X of the pin stands at center + R(s rotation) (X - center) + s displacement.
   Vec<Dim> displacement = Vec<Dim>::Zero();  ///< m
   Vec<DimTraits<Dim>::n_rotations> rotation = Vec<DimTraits<Dim>::n_rotations>::Zero();  ///< rad, angle times axis
   Vec<Dim> center = Vec<Dim>::Zero();        ///< m
+  double duration = 0;                       ///< s, > 0 if it moves in a dynamic analysis, else 0
   bool moves() const { return !displacement.isZero(0) || !rotation.isZero(0); }
 };
 

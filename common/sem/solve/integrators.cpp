@@ -9,12 +9,13 @@
 namespace sem {
 
 namespace {
-// |A x - b| / |b| of a step's linear system: beyond it x is rounding (bodies of 1e-9 of their length).
+// |A x - b| / |b| of a step's linear system: beyond it x is rounding (bodies of 1e-9 of their
+// length).
 constexpr double largest_linear_residual = 1e-4;
 
 constexpr Integrator all_integrators[] = {
     Integrator::linearly_implicit_euler, Integrator::implicit_euler, Integrator::implicit_midpoint};
-}
+}  // namespace
 
 const char* name(Integrator integrator) {
   switch (integrator) {
@@ -52,12 +53,20 @@ TimeStepper::TimeStepper(const System& system, double dt, Integrator integrator,
       cholesky_(stiffness_.plan(), stiffness_.components(), system.free) {
   assert(dt > 0);
   const int n = system.size();
-  for (auto* v : {&rest_gradient_, &z_, &v_, &gradient_, &work_, &increment_, &drift_, &zero_, &rhs_, &dv_})
+  for (auto* v :
+       {&rest_gradient_, &z_, &v_, &gradient_, &work_, &increment_, &drift_, &rhs_, &dv_, &travel_})
     v->setZero(n);
+  if (system.motion) {
+    std::vector<bool> pinned(n, true);
+    for (const int i : system.free) pinned[i] = false;
+    for (int i = 0; i < n; ++i)
+      if (pinned[i]) led_.push_back(i);
+  }
   if (!quadratic_) return;
   rest_energy_ = system.potential->energy(system.rest);
   system.potential->gradient(system.rest, rest_gradient_);
-  counters_.hessians.run(work_of_.hessian, [&] { system.potential->hessian(system.rest, false, stiffness_); });
+  counters_.hessians.run(work_of_.hessian,
+                         [&] { system.potential->hessian(system.rest, false, stiffness_); });
 }
 
 Counters TimeStepper::counters() const {
@@ -89,9 +98,11 @@ StepReport TimeStepper::step(State& state) {
     z_ = state.z;
     v_.setZero();
     for (const int i : system_.free) v_(i) = state.v(i);
+    for (const int i : led_) v_(i) = state.v(i);
+    const double dt = dt_ / report.n_substeps;
     report.status = Status::converged;
     for (int k = 0; k < report.n_substeps && report.status == Status::converged; ++k)
-      report.status = advance(dt_ / report.n_substeps, report);
+      report.status = advance(dt, state.time + (k + 1) * dt, report);
     if (report.status == Status::converged) {
       state.z.swap(z_);
       state.v.swap(v_);
@@ -105,10 +116,13 @@ StepReport TimeStepper::step(State& state) {
   return report;
 }
 
-// One substep of z_, v_.
-Status TimeStepper::advance(double dt, StepReport& report) {
+// One substep of z_, v_ to the time `end`.
+Status TimeStepper::advance(double dt, double end, StepReport& report) {
+  if (!led_.empty()) end_ = system_.motion(end);
+  for (const int i : led_) travel_(i) = end_(i) - z_(i);
   const Status status = uses_newton() ? advance_newton(dt, report) : advance_linear(dt, report);
   if (status != Status::converged) return status;
+  for (const int i : led_) z_(i) = end_(i);  // to the last bit
   if (!z_.allFinite() || !v_.allFinite()) return Status::not_finite;
   end_energy_ = potential_energy(z_);
   return std::isfinite(end_energy_) ? Status::converged : Status::not_finite;
@@ -116,7 +130,8 @@ Status TimeStepper::advance(double dt, StepReport& report) {
 
 // One linear system: exact for a quadratic potential, with theta = 1 or 1/2,
 //   (M + theta^2 dt^2 K) dv = -dt (grad V(z) - f + theta dt K v),
-//   z += dt (v + theta dv), v += dv.
+//   z += dt (v + theta dv), v += dv,
+// dv of led entries given by their way.
 Status TimeStepper::advance_linear(double dt, StepReport& report) {
   const Status status = factorize(dt);
   if (status != Status::converged) return status;
@@ -124,9 +139,17 @@ Status TimeStepper::advance_linear(double dt, StepReport& report) {
   set_gradient(z_);
   stiffness_.multiply(v_, work_);
   rhs_.setZero();
-  for (const int i : system_.free) rhs_(i) = -dt * (gradient_(i) - system_.load(i) + theta_ * dt * work_(i));
+  for (const int i : system_.free)
+    rhs_(i) = -dt * (gradient_(i) - system_.load(i) + theta_ * dt * work_(i));
+  increment_.setZero();
+  for (const int i : led_) increment_(i) = (travel_(i) / dt - v_(i)) / theta_;
   dv_ = rhs_;
+  if (!led_.empty()) {
+    matrix_.multiply(increment_, work_);
+    dv_ -= work_;
+  }
   counters_.solves.run(cholesky_.solve_work(), [&] { cholesky_.solve_in_place(dv_); });
+  dv_ += increment_;
   matrix_.multiply(dv_, work_);
   double error = 0;
   for (const int i : system_.free) {
@@ -134,6 +157,7 @@ Status TimeStepper::advance_linear(double dt, StepReport& report) {
     z_(i) += dt * (v_(i) + theta_ * dv_(i));
     v_(i) += dv_(i);
   }
+  for (const int i : led_) v_(i) += dv_(i);
   const double size = rhs_.norm();
   const double residual = size > 0 ? std::sqrt(error) / size : 0;
   report.residual = std::max(report.residual, residual);
@@ -146,8 +170,9 @@ Status TimeStepper::advance_linear(double dt, StepReport& report) {
 Status TimeStepper::advance_newton(double dt, StepReport& report) {
   const double h = theta_ * dt;
   drift_ = h * v_;
+  travel_ *= theta_;
   const NewtonReport newton =
-      newton_.minimize({z_, system_.load, 1 / (h * h), drift_, zero_},
+      newton_.minimize({z_, system_.load, 1 / (h * h), drift_, travel_},
                        {options_.tolerance, options_.max_iterations}, increment_);
   report.iterations += newton.iterations;
   report.residual = std::max(report.residual, newton.residual);
@@ -176,11 +201,13 @@ bool TimeStepper::factorize_matrix(double dt) {
   matrix_ = stiffness_;
   matrix_ *= theta_ * theta_ * dt * dt;
   matrix_.add(1, system_.mass);
-  return counters_.factorizations.run(cholesky_.factor_work(), [&] { return cholesky_.compute(matrix_); });
+  return counters_.factorizations.run(cholesky_.factor_work(),
+                                      [&] { return cholesky_.compute(matrix_); });
 }
 
 void TimeStepper::set_stiffness(bool project_psd) {
-  counters_.hessians.run(work_of_.hessian, [&] { system_.potential->hessian(z_, project_psd, stiffness_); });
+  counters_.hessians.run(work_of_.hessian,
+                         [&] { system_.potential->hessian(z_, project_psd, stiffness_); });
   if (project_psd) ++counters_.n_psd_projections;
 }
 
@@ -195,7 +222,8 @@ void TimeStepper::set_gradient(const Eigen::VectorXd& z) {
 }
 
 double TimeStepper::potential_energy(const Eigen::VectorXd& z) {
-  if (!quadratic_) return counters_.energies.run(work_of_.energy, [&] { return system_.potential->energy(z); });
+  if (!quadratic_)
+    return counters_.energies.run(work_of_.energy, [&] { return system_.potential->energy(z); });
   increment_ = z - system_.rest;
   stiffness_.multiply(increment_, work_);
   return rest_energy_ + rest_gradient_.dot(increment_) + increment_.dot(work_) / 2;

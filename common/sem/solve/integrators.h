@@ -1,8 +1,9 @@
 #pragma once
-// Time integration of M z'' + grad V(z) = f, pinned entries at rest.
+// Time integration of M z'' + grad V(z) = f, pinned entries at rest or led.
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "sem/solve/newton.h"
 #include "sem/solve/system.h"
@@ -15,6 +16,10 @@ namespace sem {
 /// implicit_midpoint, order 2, keeps linear and angular momentum:
 ///   v1 = v0 - dt M^-1 (grad V((z0 + z1)/2) - f), z1 = z0 + dt (v0 + v1)/2.
 /// M may be singular as long as M + dt^2 K is not.
+/// Pinned entries that are led (System::motion) stand at the end of a step where the motion says;
+/// their v1 follows from that by the same z1 = z0 + dt v1 or dt (v0 + v1)/2, so that the reactions'
+/// work over a midpoint step, their force there times z1 - z0, is the energy it adds (exactly if V
+/// is quadratic).
 enum class Integrator { linearly_implicit_euler, implicit_euler, implicit_midpoint };
 
 /// "linearly_implicit_euler", "implicit_euler", "implicit_midpoint".
@@ -49,9 +54,10 @@ class TimeStepper {
   TimeStepper(const System& system, double dt, Integrator integrator,
               const StepOptions& options = {});
 
-  /// On success z, v, time and step advance; pinned entries keep z and get v = 0.
+  /// On success z, v, time and step advance; pinned entries that stay get v = 0.
   /// A step that does not converge, whose linear system is solved no better than
-  /// to 1e-4, or that ends where V is not finite, is retried in substeps; if all retries fail the status says why and the state is untouched.
+  /// to 1e-4, or that ends where V is not finite, is retried in substeps; if all retries fail the
+  /// status says why and the state is untouched.
   StepReport step(State& state);
 
   void set_time_step(double dt) { dt_ = dt; }
@@ -63,7 +69,7 @@ class TimeStepper {
   double condition_estimate() const;
 
  private:
-  Status advance(double dt, StepReport& report);
+  Status advance(double dt, double end, StepReport& report);
   Status advance_linear(double dt, StepReport& report);
   Status advance_newton(double dt, StepReport& report);
   Status factorize(double dt);
@@ -78,7 +84,7 @@ class TimeStepper {
   double dt_;
   Integrator integrator_;
   StepOptions options_;
-  double theta_;    // weight of the end of the step: 1 Euler, 1/2 midpoint
+  double theta_;  // weight of the end of the step: 1 Euler, 1/2 midpoint
   PotentialWork work_of_;
   bool quadratic_;  // V(z) = V(rest) + g0 . (z - rest) + 1/2 (z - rest) . K (z - rest)
   double factorized_dt_ = 0;
@@ -87,8 +93,10 @@ class TimeStepper {
   SymmetricMatrix stiffness_, matrix_;
   SparseCholesky cholesky_;
   double rest_energy_ = 0, end_energy_ = 0;
-  Eigen::VectorXd rest_gradient_, z_, v_, gradient_, work_, increment_, drift_, zero_;
+  Eigen::VectorXd rest_gradient_, z_, v_, gradient_, work_, increment_, drift_;
   Eigen::VectorXd rhs_, dv_;
+  std::vector<int> led_;          // entries that the motion leads
+  Eigen::VectorXd end_, travel_;  // where to; by how much, 0 on the others
 };
 
 }  // namespace sem

@@ -86,21 +86,30 @@ Status Newton::direction(double inertia) {
   return Status::singular;
 }
 
-// True if r is as small as the rounding of forces that are sums of H_ij z_j.
-bool Newton::is_rounding(double residual, double norm) {
-  if (residual > small_residual) return false;
+// True if r is as small as the rounding of forces that are sums of H_ij z_j and M_ij (u - drift)_j, and small
+// beside the largest forces or, where nothing is loaded, these are no more than that themselves.
+bool Newton::is_rounding(const IncrementProblem& problem, const Eigen::VectorXd& u, double norm, double largest_force) {
+  const auto loaded = [&](int i) { return problem.load(i) != 0; };
+  const bool small = norm <= small_residual * largest_force;
+  if (!small && std::any_of(system_.free.begin(), system_.free.end(), loaded)) return false;
   hessian_.absolute_product(z_, work_);
+  if (problem.inertia > 0) {
+    step_ = u - problem.drift;
+    system_.mass.absolute_product(step_, mass_step_);
+    work_ += problem.inertia * mass_step_;
+  }
   double sum = 0;
-  for (const int i : system_.free) sum += std::pow(work_(i) + std::abs(inertial_(i)), 2);
-  return norm <= rounding_margin * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+  for (const int i : system_.free) sum += work_(i) * work_(i);
+  const double rounding = rounding_margin * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+  return norm <= rounding && (small || largest_force <= rounding);
 }
 
 // Moves the pinned entries to their prescribed values and the free ones along
-// the tangent: H_ff du = -(r + H_fp du_p). Judged by its energy being finite.
+// the tangent: A_ff du = -(r + A_fp du_p), A = H + inertia M. Judged by its energy being finite.
 bool Newton::predict(const IncrementProblem& problem, Eigen::VectorXd& u) {
   step_ = problem.prescribed - u;
   for (const int i : system_.free) step_(i) = 0;
-  hessian_.multiply(step_, work_);
+  matrix_.multiply(step_, work_);
   work_ = -residual_ - work_;
   counters_.solves.run(cholesky_.solve_work(), [&] { cholesky_.solve_in_place(work_); });
   step_ += work_;
@@ -174,21 +183,23 @@ NewtonReport Newton::minimize(const IncrementProblem& problem, const NewtonOptio
     return report;
   }
   const double start_force = reference_force(problem);
+  double largest_force = start_force;
   bool moving = pins_move(problem);
 
   for (;;) {
     const double norm = residual_.norm();
     report.reference_force = std::max(start_force, gradient_.norm());
+    largest_force = std::max(largest_force, gradient_.norm());
     report.residual = norm > 0 ? norm / report.reference_force : 0;
     if (!moving && report.residual <= options.tolerance) break;
-    if (!moving && report.iterations > 0 && is_rounding(report.residual, norm)) break;
+    if (!moving && report.iterations > 0 && is_rounding(problem, u, norm, largest_force)) break;
     if (report.iterations == options.max_iterations) {
       report.status = Status::max_iterations;
       break;
     }
     report.status = direction(problem.inertia);
     if (report.status != Status::converged) break;
-    if (!moving && report.iterations == 0 && is_rounding(report.residual, norm)) break;
+    if (!moving && report.iterations == 0 && is_rounding(problem, u, norm, largest_force)) break;
     ++report.iterations;
     if (moving) {
       moving = false;

@@ -49,7 +49,8 @@ class Newton {
   /// if that is indefinite, of the projected one; if that fails, of the
   /// projected one plus a multiple of its diagonal. Converged: residual <=
   /// tolerance, or r is down to the rounding of the internal forces
-  /// (and below 1e-4 of the reference force). On failure
+  /// (and below 1e-4 of the largest forces on the way; or nothing
+  /// is loaded and these are rounding too). On failure
   /// u is the last iterate. Never returns a non-finite u.
   NewtonReport minimize(const IncrementProblem& problem, const NewtonOptions& options,
                         Eigen::VectorXd& u);
@@ -65,7 +66,8 @@ class Newton {
   Status direction(double inertia);
   bool predict(const IncrementProblem& problem, Eigen::VectorXd& u);
   bool line_search(const IncrementProblem& problem, Eigen::VectorXd& u);
-  bool is_rounding(double residual, double norm);
+  bool is_rounding(const IncrementProblem& problem, const Eigen::VectorXd& u, double norm,
+                   double largest_force);
   double reference_force(const IncrementProblem& problem);
   bool pins_move(const IncrementProblem& problem);
 

@@ -6,15 +6,11 @@
 // entries stand at z_start + s (target - z_start) or path(s).
 
 #include <Eigen/Core>
-#include <functional>
 
 #include "sem/solve/newton.h"
 #include "sem/solve/system.h"
 
 namespace sem {
-
-/// Where pinned entries stand at a load factor, n (free ones ignored).
-using PinPath = std::function<Eigen::VectorXd(double)>;
 
 struct StaticOptions {
   Eigen::VectorXd

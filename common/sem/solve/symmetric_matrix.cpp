@@ -208,8 +208,9 @@ SymmetricMatrix operator*(double factor, SymmetricMatrix A) {
 }
 
 void SymmetricMatrix::absolute_product(const VectorXd& x, VectorXd& y) const {
-  y.setZero(size());
-  const int C = components_;
+  const int n = size(), C = components_, k = n > 0 ? int(x.size()) / n : 1;
+  assert(x.size() == long(k) * n);
+  y.setZero(x.size());
   const auto entry = [&](int position, int a) { return C * plan_->node[position] + a; };
   for (int p = 0; p < int(plan_->panels.size()); ++p) {
     const auto& panel = plan_->panels[p];
@@ -218,8 +219,10 @@ void SymmetricMatrix::absolute_product(const VectorXd& x, VectorXd& y) const {
       const int column = entry(panel.begin + j / C, j % C);
       for (int i = j; i < A.rows(); ++i) {
         const int row = entry(i / C < panel.width() ? panel.begin + i / C : panel.rows[i / C - panel.width()], i % C);
-        y[row] += std::abs(A(i, j) * x[column]);
-        if (i != j) y[column] += std::abs(A(i, j) * x[row]);
+        for (int b = 0; b < k; ++b) {
+          y[k * row + b] += std::abs(A(i, j) * x[k * column + b]);
+          if (i != j) y[k * column + b] += std::abs(A(i, j) * x[k * row + b]);
+        }
       }
     }
   }

@@ -49,7 +49,7 @@ class SymmetricMatrix {
   /// y = A x; x may have k times as many entries: of the Kronecker product with the identity of size k.
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
   Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;
-  /// y = |A| |x|, entry by entry; x of size().
+  /// y = |A| |x|, entry by entry; x as for multiply.
   void absolute_product(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 
   /// A panel: components times its height by components times its width.

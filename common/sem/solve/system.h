@@ -2,9 +2,10 @@
 // What the solvers know of a solid: an energy V of its unknowns z, a mass
 // matrix, a dead load, and which unknowns are free. No geometry, no dimension.
 //
-//   M z'' + grad V(z) = f   on the free entries; the others are pinned.
+//   M z'' + grad V(z) = f   on the free entries; the others are pinned: they stay, or are led.
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "sem/solve/symmetric_matrix.h"
@@ -26,7 +27,8 @@ class Potential {
   /// H = d2V/dz2; with project_psd a positive semi-definite approximation of it. H is one
   /// that new_hessian made.
   virtual void hessian(const Eigen::VectorXd& z, bool project_psd, SymmetricMatrix& H) = 0;
-  /// Room for a Hessian: which entries it has and how they are eliminated. Here all, in their order.
+  /// Room for a Hessian: which entries it has and how they are eliminated. Here all, in their
+  /// order.
   virtual SymmetricMatrix new_hessian() const;
   /// The Hessian as a dense matrix, for small problems.
   Eigen::MatrixXd dense_hessian(const Eigen::VectorXd& z, bool project_psd = false);
@@ -37,20 +39,25 @@ class Potential {
   virtual bool quadratic() const = 0;
 };
 
+/// Where pinned entries stand at a load factor (statics.h) or at a time, s; n, free ones ignored.
+using PinPath = std::function<Eigen::VectorXd(double)>;
+
 /// M, f, pins. The potential is not owned. All vectors have size n.
 struct System {
   Potential* potential = nullptr;
-  SymmetricMatrix mass;   ///< M, kg, positive semi-definite; in the plan of the potential's Hessian, or dense
+  SymmetricMatrix
+      mass;  ///< M, kg, positive semi-definite; in the plan of the potential's Hessian, or dense
   Eigen::VectorXd load;   ///< f, N: constant dead load; total potential V(z) - f . z
   std::vector<int> free;  ///< indices of the unknowns that are not pinned, ascending
   Eigen::VectorXd rest;   ///< z of the rest shape
+  PinPath motion = {};    ///< of the pinned entries in time (integrators.h); empty: they stay
 
   int size() const { return int(rest.size()); }
 };
 
 struct State {
   Eigen::VectorXd z;  ///< unknowns, n
-  Eigen::VectorXd v;  ///< their rate, n; zero for pinned entries
+  Eigen::VectorXd v;  ///< their rate, n; zero for pinned entries that stay
   double time = 0;    ///< s
   long step = 0;
 };
