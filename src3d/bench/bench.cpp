@@ -104,19 +104,29 @@ void print_tasks(const Machine& machine, const std::vector<SceneTime>& scenes) {
     }
 }
 
-// Beside the paper's times, which are those of another machine.
+// Beside their times, the paper's of another machine; "-" where they tell none.
 void print_published(const std::vector<PublishedTime>& times) {
-  std::printf("%-12s %9s %9s %7s %6s %14s %9s %9s %6s %12s %13s\n", "scene", "published",
-              "unknowns", "points", "fill %", "published ms", "step ms", "1 / aim", "1 /",
-              "factor ms", "preprocess ms");
-  for (const auto& [name, n_unknowns, step, aim, own] : times) {
+  const auto cell = [](double value, int digits) {
+    char text[32] = "-";
+    if (value > 0) std::snprintf(text, sizeof text, "%.*f", digits, value);
+    return std::string(text);
+  };
+  std::printf("%-12s %13s %8s %11s %22s %13s %9s %22s %13s\n", "", "unknowns", "points", "fill %",
+              "step ms", "theirs / ours", "factor ms", "preprocessing ms", "theirs / ours");
+  std::printf("%-12s %6s %6s %8s %5s %5s %11s %10s %6s %6s %9s %11s %10s %6s %6s\n", "scene",
+              "theirs", "ours", "ours", "theirs", "ours", "theirs", "ours", "", "aim", "ours",
+              "theirs", "ours", "", "aim");
+  for (const auto& t : times) {
     double factorization = 0;
-    for (const auto& [task_name, task] : own.tasks)
-      if (task_name == "factorization") factorization = task.seconds / double(own.n_solves);
-    std::printf("%-12s %9d %9d %7d %6.0f %14.0f %9.2f %9.0f %6.0f %12.2f %13.0f\n", name.c_str(),
-                n_unknowns, own.n_unknowns, own.n_points, 100 * own.fill, 1e3 * step,
-                1e3 * own.solve, 1 / aim, step / own.solve, 1e3 * factorization,
-                1e3 * own.preprocessing);
+    for (const auto& [task, times_of_task] : t.own.tasks)
+      if (task == "factorization") factorization = times_of_task.seconds / double(t.own.n_solves);
+    std::printf("%-12s %6d %6d %8d %6s %5.0f %11.0f %10.2f %6.0f %6.0f %9.2f %11s %10.0f %6s %6s\n",
+                t.name.c_str(), t.n_unknowns, t.own.n_unknowns, t.own.n_points,
+                cell(t.fill, 0).c_str(), 100 * t.own.fill, 1e3 * t.step, 1e3 * t.own.solve,
+                t.step / t.own.solve, t.aim, 1e3 * factorization,
+                cell(1e3 * t.preprocessing, 0).c_str(), 1e3 * t.own.preprocessing,
+                cell(t.preprocessing / t.own.preprocessing, 0).c_str(),
+                cell(t.preprocessing_aim, 0).c_str());
   }
 }
 
