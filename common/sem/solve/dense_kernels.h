@@ -25,7 +25,7 @@ struct DenseKernels {
 const DenseKernels& dense_kernels();
 
 namespace detail {
-extern const DenseKernels portable_dense_kernels, avx2_dense_kernels;
+extern const DenseKernels portable_dense_kernels, avx2_dense_kernels, avx512_dense_kernels;
 }
 
 }  // namespace sem
