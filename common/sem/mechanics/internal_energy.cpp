@@ -32,31 +32,38 @@ InternalEnergy<Dim>::InternalEnergy(const Map<Dim>& map, const VectorXd& weight,
                                     const MaterialField& materials, const SymmetricMatrix& stability,
                                     Clamps<Dim> clamps, Pressure<Dim> pressure,
                                     std::shared_ptr<const Elimination> plan)
-    : map_(map),
+    : map_(joined(map, blocks_to_join(map))),
       weight_(weight),
       materials_(materials),
       stability_(stability),
-      assembly_(map, plan ? plan : stability.plan() ? stability.plan() : dense_elimination(map.n_columns), Dim),
+      assembly_(map_, plan ? plan : stability.plan() ? stability.plan() : dense_elimination(map.n_columns), Dim),
       clamps_(std::move(clamps)),
       pressure_(std::move(pressure)),
-      work_(map.blocks.size()),
+      work_(map_.blocks.size()),
       stability_z_(Dim * map.n_columns),
       stability_force_(Dim * map.n_columns) {
   quadratic_ = std::all_of(materials_.of_point.begin(), materials_.of_point.end(), [&](int m) {
     return is_quadratic(materials_.materials[m].model);
   });
+  work_of_ = count_work(map);
+  if (!pressure_.empty()) pressure_.join(blocks_to_join(map));
   long most_scaled = 0, most_columns = 0;
   for (size_t b = 0; b < work_.size(); ++b) {
-    const auto& block = map.blocks[b];
+    auto& block = map_.blocks[b];
+    Workspace& work = work_[b];
     const int n = int(block.points.size()), n_columns = int(block.columns.size());
     most_scaled = std::max(most_scaled, long(Dim) * n * n_columns);
     most_columns = std::max(most_columns, long(n_columns));
-    work_[b].nodes.resize(Dim, n_columns);
-    work_[b].F.resize(Dim * n, Dim);
-    work_[b].gradient.resize(Dim * n, n_columns);
-    for (int axis = 0; axis < Dim; ++axis)
-      work_[b].gradient.middleRows(axis * n, n) = block.gradient[axis](Eigen::all, assembly_.order(int(b)));
-    for (auto& entry : work_[b].tangent) entry.resize(n);
+    for (const int c : assembly_.order(int(b))) work.columns.push_back(block.columns[c]);
+    work.nodes.resize(Dim, n_columns);
+    work.F.resize(Dim * n, Dim);
+    work.gradient.resize(Dim * n, n_columns);
+    for (int axis = 0; axis < Dim; ++axis) {
+      work.gradient.middleRows(axis * n, n) = block.gradient[axis](Eigen::all, assembly_.order(int(b)));
+      block.gradient[axis] = {};
+    }
+    block.value = {};
+    for (auto& entry : work.tangent) entry.resize(n);
   }
   scaled_.resize(most_scaled * Dim * (Dim + 1) / 2);
   product_.resize(most_columns * most_columns * Dim * (Dim + 1) / 2);
@@ -64,16 +71,16 @@ InternalEnergy<Dim>::InternalEnergy(const Map<Dim>& map, const VectorXd& weight,
 }
 
 template <int Dim>
-PotentialWork InternalEnergy<Dim>::work() const {
+PotentialWork InternalEnergy<Dim>::count_work(const Map<Dim>& map) const {
   PotentialWork work;
   Work F, local;  // F at all points; the blocks' matrices
-  for (const auto& block : map_.blocks) {
+  for (const auto& block : map.blocks) {
     const double n = double(block.points.size()), N = double(block.columns.size());
     F += {2 * Dim * Dim * n * N, sizeof(double) * Dim * n * N};
     const double pairs = Dim * (Dim + 1) / 2, entries = Dim * N * (Dim * N + 1) / 2;
     local += {2 * pairs * Dim * Dim * n * N + 2 * entries * Dim * n + entries, sizeof(double) * Dim * n * N};
   }
-  for (const auto& shared : map_.shared)
+  for (const auto& shared : map.shared)
     F += {2 * Dim * double(shared.rows.size()), sizeof(double) * double(shared.rows.size())};
   const double n = size(), m = pressure_.functions().interior.n_columns;
   const double entries = double(assembly_.plan()->n_entries), K = sizeof(double) * Dim * Dim * entries;
@@ -89,9 +96,7 @@ PotentialWork InternalEnergy<Dim>::work() const {
 template <int Dim>
 void InternalEnergy<Dim>::deformation_gradients(int b) {
   Workspace& work = work_[b];
-  const auto& columns = map_.blocks[b].columns;
-  const auto& order = assembly_.order(b);
-  for (size_t j = 0; j < order.size(); ++j) work.nodes.col(j) = y_.col(columns[order[j]]);
+  for (size_t j = 0; j < work.columns.size(); ++j) work.nodes.col(j) = y_.col(work.columns[j]);
   const int n = int(work.gradient.rows()), N = int(work.gradient.cols());
   work.F.setZero();
   dense_kernels().add_scaled_product(1, work.F.data(), n, work.gradient.data(), n, work.nodes.data(), Dim, n, Dim, N);
@@ -184,8 +189,7 @@ void InternalEnergy<Dim>::gradient(const VectorXd& z, VectorXd& g) {
     Eigen::Map<Rows> sum(product_.data(), N, Dim);
     sum.setZero();
     dense_kernels().add_product(sum.data(), N, work.gradient.data(), n, work.F.data(), n, N, Dim, n);
-    const auto& order = assembly_.order(int(i));
-    for (int j = 0; j < N; ++j) forces_.col(block.columns[order[j]]) += sum.row(j).transpose();
+    for (int j = 0; j < N; ++j) forces_.col(work.columns[j]) += sum.row(j).transpose();
   }
   add_shared(map_, forces_);
   g = Eigen::Map<const VectorXd>(forces_.data(), size());
@@ -275,7 +279,7 @@ void InternalEnergy<Dim>::add_pressure_hessian(const VectorXd& z, SymmetricMatri
     Workspace& work = work_[i];
     deformation_gradients(int(i));
     const int n = int(block.points.size());
-    scaled.resize(n, block.columns.size());
+    scaled.resize(n, work.columns.size());
     std::array<Points<Dim>, Dim> first;  // v dg/dF_ab: column a of row b
     for (auto& rows : first) rows = Points<Dim>::Zero(Dim, n);
     for (int k = 0; k < n; ++k) {
@@ -283,18 +287,18 @@ void InternalEnergy<Dim>::add_pressure_hessian(const VectorXd& z, SymmetricMatri
       const auto g = volume_measure<Dim>(material(block.points[k]).model, F_at<Dim>(work.F, k));
       for (int b = 0; b < Dim; ++b) first[b].col(k) = weight_[block.points[k]] * g.first.col(b);
     }
-    MatrixXd local(values.columns.size(), block.columns.size());
+    MatrixXd local(values.columns.size(), work.columns.size());
     for (int a = 0; a < Dim; ++a) {
-      for (size_t j = 0; j < block.columns.size(); ++j)
+      for (size_t j = 0; j < work.columns.size(); ++j)
         for (int k = 0; k < n; ++k) {
           double sum = 0;
-          for (int b = 0; b < Dim; ++b) sum += first[b](a, k) * block.gradient[b](k, j);
+          for (int b = 0; b < Dim; ++b) sum += first[b](a, k) * work.gradient(b * n + k, j);
           scaled(k, j) = sum;
         }
       local.noalias() = values.value.transpose() * scaled;
-      for (size_t j = 0; j < block.columns.size(); ++j)
+      for (size_t j = 0; j < work.columns.size(); ++j)
         for (size_t m = 0; m < values.columns.size(); ++m)
-          G(values.columns[m], Dim * block.columns[j] + a) += local(m, j);
+          G(values.columns[m], Dim * work.columns[j] + a) += local(m, j);
     }
   }
   if (!clamps_.empty()) clamps_.add_volume_work_derivative(z, q.on_clamps, G);

@@ -28,7 +28,7 @@ struct MaterialField {
 template <int Dim>
 class InternalEnergy : public Potential {
  public:
-  /// map: B at the quadrature points (kept by reference); weight: v_k;
+  /// map: B at the quadrature points; weight: v_k;
   /// stability: gamma S, scalar, n_columns by n_columns, Pa (2D) or Pa m; empty: none. clamps: V_D, added to V.
   /// pressure: of the materials that have one of their own (pressure.h); empty: none. plan: of the Hessian, with
   /// the couplings of the map, of the clamps and, if there is a pressure, of everything; that of a stability; null: dense.
@@ -42,7 +42,7 @@ class InternalEnergy : public Potential {
   void hessian(const Eigen::VectorXd& z, bool project_psd, SymmetricMatrix& H) override;
   SymmetricMatrix new_hessian() const override { return {assembly_.plan(), Dim}; }
   /// Without clamps.
-  PotentialWork work() const override;
+  PotentialWork work() const override { return work_of_; }
   /// True if every material in use is linear.
   bool quadratic() const override { return quadratic_; }
 
@@ -58,8 +58,9 @@ class InternalEnergy : public Potential {
 
   // Work space of one map block, sized once.
   struct Workspace {
-    Points<Dim> nodes;                   // y of the block's columns, in the order of the assembly; Dim by #columns
-    Eigen::MatrixXd gradient;            // the block's, axis below axis, columns in that order
+    std::vector<int> columns;            // the block's, in the order of the assembly
+    Points<Dim> nodes;                   // y of these; Dim by #columns
+    Eigen::MatrixXd gradient;            // the block's, axis below axis, these columns
     Rows F;                              // gradient times the nodes: row b #points + k is column b of F at point k
     std::array<Eigen::ArrayXd, Dim * Dim * Dim * Dim> tangent;  // v dP/dF at all points, entry by entry
   };
@@ -72,11 +73,12 @@ class InternalEnergy : public Potential {
   bool update_pressure(const Eigen::VectorXd& z);
   double mixed_energy(const Eigen::VectorXd& z);  // at that pressure
   void add_pressure_hessian(const Eigen::VectorXd& z, SymmetricMatrix& H);
+  PotentialWork count_work(const Map<Dim>& map) const;
   const double* pressure(int point) const { return pressure_.empty() ? nullptr : pressure_.at(point); }
   const double* clamp_pressure() const { return pressure_.empty() ? nullptr : pressure_.on_clamps(); }
   const Material& material(int point) const { return materials_.materials[materials_.of_point[point]]; }
 
-  const Map<Dim>& map_;
+  Map<Dim> map_;  // blocks joined, without values and gradients
   Eigen::VectorXd weight_;
   MaterialField materials_;
   SymmetricMatrix stability_;
@@ -84,6 +86,7 @@ class InternalEnergy : public Potential {
   Clamps<Dim> clamps_;
   Pressure<Dim> pressure_;
   bool quadratic_;
+  PotentialWork work_of_;  // before blocks are joined: zeros are no work asked for
   std::vector<Workspace> work_;
   Points<Dim> y_, forces_;                    // coefficients of the map, and forces on them
   Eigen::VectorXd scaled_, product_, local_;  // of a block: room for the largest

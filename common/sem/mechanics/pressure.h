@@ -11,6 +11,7 @@
 // M y = b. Where g is itself a q (uniform changes of volume) nothing changes.
 
 #include "sem/mechanics/clamps.h"
+#include "sem/method/join_blocks.h"
 #include "sem/solve/cholesky.h"
 #include "sem/solve/symmetric_matrix.h"
 
@@ -32,6 +33,9 @@ class Pressure {
   Pressure() = default;
   /// weight: v_k. Functions must be independent on the points with lambda > 0.
   Pressure(PressureFunctions<Dim> functions, const Eigen::VectorXd& weight);
+
+  /// Joins the blocks of the functions as those of the body's map (join_blocks.h).
+  void join(const std::vector<std::vector<int>>& lists) { functions_.interior = joined(functions_.interior, lists); }
 
   bool empty() const { return functions_.interior.n_columns == 0; }
 
