@@ -168,7 +168,7 @@ TEST_CASE("a sparse factor solves with the free block, whatever is held") {
 }
 
 TEST_CASE("the kernels of all sets of instructions agree with plain products") {
-  for (const DenseKernels* kernels : {&detail::portable_dense_kernels, &dense_kernels()}) {
+  for (const DenseKernels* kernels : available_dense_kernels()) {
     CAPTURE(kernels->name);
     const int m = 37, n = 21, k = 13;
     const MatrixXd A = MatrixXd::Random(m, k), B = MatrixXd::Random(n, k), C = MatrixXd::Random(m, n);
@@ -191,6 +191,15 @@ TEST_CASE("the kernels of all sets of instructions agree with plain products") {
     MatrixXd X = C;
     kernels->solve_right(L.data(), n, X.data(), m, m, n);
     CHECK((X * factor.transpose() - C).norm() < 1e-11);
+    for (const int n_factors : {2, 3}) {
+      const MatrixXd G = MatrixXd::Random(n_factors * k, n), F = MatrixXd::Random(k, n_factors);
+      const double* factors[] = {F.col(0).data(), F.col(1).data(), F.col(n_factors - 1).data()};
+      MatrixXd sum = MatrixXd::Zero(k, n);
+      for (int d = 0; d < n_factors; ++d) sum += F.col(d).asDiagonal() * G.middleRows(d * k, k);
+      MatrixXd weighed = MatrixXd::Constant(k, n, 9);
+      kernels->weigh_rows(weighed.data(), k, factors, n_factors, G.data(), n_factors * k, k, n);
+      CHECK((weighed - sum).norm() < 1e-14);
+    }
     S(n - 1, n - 1) = -1;
     CHECK_FALSE(kernels->cholesky(S.data(), n, n));
   }

@@ -218,26 +218,21 @@ Eigen::Map<const MatrixXd> InternalEnergy<Dim>::local_hessian(const Workspace& w
   constexpr int n_pairs = Dim * (Dim + 1) / 2;
   const int n = int(work.tangent[0].size()), N = int(work.gradient.cols()), k = Dim * n;
   Eigen::Map<MatrixXd> scaled(scaled_.data(), k, n_pairs * N), product(product_.data(), N, n_pairs * N), local(local_.data(), Dim * N, Dim * N);
+  const DenseKernels& kernels = dense_kernels();
   std::array<std::array<int, Dim>, Dim> pair;
   for (int c = 0, next = 0; c < Dim; ++c)
     for (int a = c; a < Dim; ++a, ++next) {
       pair[a][c] = pair[c][a] = next;
       for (int b = 0; b < Dim; ++b) {
-        const auto C = [&](int d) { return work.tangent[a + Dim * b + Dim * Dim * (c + Dim * d)].data(); };
-        for (int j = 0; j < N; ++j) {
-          double* entry = &scaled(b * n, next * N + j);
-          for (int i = 0; i < n; ++i) entry[i] = 0;
-          for (int d = 0; d < Dim; ++d) {
-            const double *factor = C(d), *G = &work.gradient(d * n, j);
-            for (int i = 0; i < n; ++i) entry[i] += factor[i] * G[i];
-          }
-        }
+        std::array<const double*, Dim> C;
+        for (int d = 0; d < Dim; ++d) C[d] = work.tangent[a + Dim * b + Dim * Dim * (c + Dim * d)].data();
+        kernels.weigh_rows(&scaled(b * n, next * N), k, C.data(), Dim, work.gradient.data(), k, n, N);
       }
     }
   product.setZero();
   const int at_once = std::clamp(product_columns_bytes / int(sizeof(double) * k), N, n_pairs * N);
   for (int j = 0; j < n_pairs * N; j += at_once)
-    dense_kernels().add_product(&product(0, j), N, work.gradient.data(), k, &scaled(0, j), k, N, std::min(at_once, n_pairs * N - j), k);
+    kernels.add_product(&product(0, j), N, work.gradient.data(), k, &scaled(0, j), k, N, std::min(at_once, n_pairs * N - j), k);
   for (int j = 0; j < N; ++j)
     for (int c = 0; c < Dim; ++c) {
       double* column = &local(0, Dim * j + c);

@@ -1,24 +1,23 @@
 #include "sem/solve/dense_kernels.h"
 
 namespace sem {
-namespace {
 
-const DenseKernels& chosen_kernels() {
+std::vector<const DenseKernels*> available_dense_kernels() {
+  std::vector<const DenseKernels*> available{&detail::portable_dense_kernels};
 #ifdef SEM_X86_KERNELS
   __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl"))
-    return detail::avx512_dense_kernels;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return detail::avx2_dense_kernels;
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (avx2) available.push_back(&detail::avx2_dense_kernels);
+  if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
+    available.push_back(&detail::avx512_dense_kernels);
 #endif
-  return detail::portable_dense_kernels;
+  return available;
 }
 
-}  // namespace
-
 const DenseKernels& dense_kernels() {
-  static const DenseKernels& kernels = chosen_kernels();
-  return kernels;
+  static const DenseKernels& best = *available_dense_kernels().back();
+  return best;
 }
 
 }  // namespace sem

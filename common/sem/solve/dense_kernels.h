@@ -1,7 +1,9 @@
 #pragma once
 // The dense inner loops of factorisation and assembly: Eigen's, compiled once for every processor and once
-// with AVX2 and FMA (2 to 3 times faster there); which ones run is decided when the program starts. All
-// matrices are stored by columns; ld: entries from one column to the next.
+// with AVX2 and FMA (2 to 3 times faster there), once with AVX-512; which ones run is decided when the program
+// starts. All matrices are stored by columns; ld: entries from one column to the next.
+
+#include <vector>
 
 namespace sem {
 
@@ -19,9 +21,13 @@ struct DenseKernels {
   void (*add_product)(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int m, int n, int k);
   /// The lower triangle of C += A^T B, C n by n, for a product that is symmetric.
   void (*add_lower_product)(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int n, int k);
+  /// C = sum_d diag(factor_d) A_d, m by n, A the A_d one below the other, n_factors m by n.
+  void (*weigh_rows)(double* C, int ld_c, const double* const* factors, int n_factors, const double* A, int ld_a, int m, int n);
 };
 
-/// Those of this processor.
+/// Those that this processor runs, the fastest last.
+std::vector<const DenseKernels*> available_dense_kernels();
+/// The fastest of them.
 const DenseKernels& dense_kernels();
 
 namespace detail {

@@ -41,8 +41,23 @@ void add_lower_product(double* C, int ld_c, const double* A, int ld_a, const dou
   target.triangularView<Eigen::Lower>() += view(A, k, n, ld_a).transpose() * view(B, k, n, ld_b);
 }
 
+void weigh_rows(double* C, int ld_c, const double* const* factors, int n_factors, const double* A, int ld_a, int m, int n) {
+  using Column = Eigen::Map<Eigen::ArrayXd>;
+  using ConstColumn = Eigen::Map<const Eigen::ArrayXd>;
+  for (int j = 0; j < n; ++j) {
+    const auto product = [&](int d) { return ConstColumn(factors[d], m) * ConstColumn(A + long(j) * ld_a + long(d) * m, m); };
+    Column column(C + long(j) * ld_c, m);
+    if (n_factors == 3) {
+      column = product(0) + product(1) + product(2);
+      continue;
+    }
+    column = product(0);
+    for (int d = 1; d < n_factors; ++d) column += product(d);
+  }
+}
+
 }  // namespace
 
-const DenseKernels SEM_KERNELS{SEM_KERNEL_NAME, cholesky, solve_right, add_scaled_product, add_product, add_lower_product};
+const DenseKernels SEM_KERNELS{SEM_KERNEL_NAME, cholesky, solve_right, add_scaled_product, add_product, add_lower_product, weigh_rows};
 
 }  // namespace sem::detail
