@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "sem/method/join_blocks.h"
+#include "sem/solve/dense_kernels.h"
+
 namespace sem {
 
 using Eigen::MatrixXd;
@@ -101,8 +104,8 @@ MatrixXd block_hessian(const std::vector<HeldPoint<Dim>>& points, bool approxima
   const int n = int(block.columns.size()), n_points = int(points.size());
   const auto rows = Eigen::seqN(points[0].row, n_points);
   const MatrixXd V = block.value(rows, Eigen::all);
-  std::array<MatrixXd, Dim> G;
-  for (int b = 0; b < Dim; ++b) G[b] = block.gradient[b](rows, Eigen::all);
+  MatrixXd G(Dim * n_points, n);
+  for (int b = 0; b < Dim; ++b) G.middleRows(b * n_points, n_points) = block.gradient[b](rows, Eigen::all);
   std::vector<Mat<Dim>> K;
   std::vector<StressDerivative<Dim>> C, D;
   for (const auto& p : points) {
@@ -110,30 +113,40 @@ MatrixXd block_hessian(const std::vector<HeldPoint<Dim>>& points, bool approxima
     C.push_back(p.weight * stress_derivative<Dim>(p.material, p.F, p.pressure));
     if (!approximate) D.push_back(p.weight * third_derivative(p));
   }
-  // w T of component a by component c, #points by #columns.
-  const auto traction = [&](int a, int c) {
-    MatrixXd T = MatrixXd::Zero(n_points, n);
-    for (int k = 0; k < n_points; ++k)
-      for (int d = 0; d < Dim; ++d) {
-        double factor = 0;
-        for (int b = 0; b < Dim; ++b) factor += points[k].normal[b] * C[k](a + Dim * b, c + Dim * d);
-        T.row(k) += points[k].held[a] * factor * G[d].row(k);
-      }
-    return T;
+  // Rows of `target`: minus the sum over d of factor(k, d) G_d, #points by #columns.
+  const DenseKernels& kernels = dense_kernels();
+  MatrixXd factors(n_points, Dim);
+  const auto subtract_weighed = [&](const auto& factor, MatrixXd& target, int first) {
+    std::array<const double*, Dim> columns;
+    for (int d = 0; d < Dim; ++d) {
+      for (int k = 0; k < n_points; ++k) factors(k, d) = -factor(k, d);
+      columns[d] = factors.col(d).data();
+    }
+    kernels.weigh_rows(&target(first, 0), int(target.rows()), columns.data(), Dim, G.data(), Dim * n_points, n_points, n);
   };
-  MatrixXd sum(Dim * n, Dim * n);
+  // w T of component a by component c.
+  const auto traction = [&](int a, int c) {
+    return [&, a, c](int k, int d) {
+      double factor = 0;
+      for (int b = 0; b < Dim; ++b) factor += points[k].normal[b] * C[k](a + Dim * b, c + Dim * d);
+      return points[k].held[a] * factor;
+    };
+  };
+  // All terms below each other: V and K V - T_ac, -T_ca and V, grad V and -D grad V.
+  const int n_rows = (approximate ? 2 : 2 + Dim) * n_points;
+  MatrixXd left(n_rows, n), right(n_rows, n), sum(Dim * n, Dim * n), local(n, n);
+  left.topRows(n_points) = V;
+  right.middleRows(n_points, n_points) = V;
+  if (!approximate) left.bottomRows(Dim * n_points) = G;
   for (int a = 0; a < Dim; ++a)
     for (int c = 0; c <= a; ++c) {
-      MatrixXd right = -traction(a, c);
+      subtract_weighed(traction(a, c), right, 0);
       for (int k = 0; k < n_points; ++k) right.row(k) += K[k](a, c) * V.row(k);
-      MatrixXd local = V.transpose() * right;
-      local -= traction(c, a).transpose() * V;
-      for (int b = 0; b < Dim && !approximate; ++b) {
-        MatrixXd work = MatrixXd::Zero(n_points, n);
-        for (int k = 0; k < n_points; ++k)
-          for (int d = 0; d < Dim; ++d) work.row(k) += D[k](a + Dim * b, c + Dim * d) * G[d].row(k);
-        local -= G[b].transpose() * work;
-      }
+      subtract_weighed(traction(c, a), left, n_points);
+      for (int b = 0; b < Dim && !approximate; ++b)
+        subtract_weighed([&](int k, int d) { return D[k](a + Dim * b, c + Dim * d); }, right, (2 + b) * n_points);
+      local.setZero();
+      kernels.add_product(local.data(), n, left.data(), n_rows, right.data(), n_rows, n, n, n_rows);
       for (int j = 0; j < n; ++j)
         for (int m = 0; m < n; ++m) {
           sum(Dim * m + a, Dim * j + c) = local(m, j);
@@ -156,7 +169,9 @@ std::vector<int> coupled_columns(const HeldControl<Dim>& spring) {
 
 template <int Dim>
 Clamps<Dim>::Clamps(ClampedPoints<Dim> points, std::vector<HeldControl<Dim>> controls)
-    : points_(std::move(points)), controls_(std::move(controls)) {}
+    : points_(std::move(points)), controls_(std::move(controls)) {
+  points_.map = joined(points_.map, blocks_to_join(points_.map));
+}
 
 template <int Dim>
 double Clamps<Dim>::energy(const VectorXd& z, const double* pressure) const {
