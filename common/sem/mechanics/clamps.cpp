@@ -33,17 +33,19 @@ void visit_points(const ClampedPoints<Dim>& points, const VectorXd& z, const dou
                   const Visit& visit) {
   const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, points.map.n_columns);
   for (const auto& block : points.map.blocks) {
+    const Points<Dim> y = nodes(Eigen::all, block.columns), x = y * block.value.transpose();
+    std::array<Points<Dim>, Dim> F;
+    for (int b = 0; b < Dim; ++b) F[b] = y * block.gradient[b].transpose();
     for (size_t row = 0; row < block.points.size(); ++row) {
       const int s = block.points[row];
-      Vec<Dim> x = Vec<Dim>::Zero();
-      for (size_t j = 0; j < block.columns.size(); ++j)
-        x += block.value(row, j) * nodes.col(block.columns[j]);
+      Mat<Dim> F_s;
+      for (int b = 0; b < Dim; ++b) F_s.col(b) = F[b].col(row);
       const HeldPoint<Dim> point{block,
                                  int(row),
-                                 points.held.col(s).cwiseProduct(x - points.position.col(s)),
+                                 points.held.col(s).cwiseProduct(x.col(row) - points.position.col(s)),
                                  points.normal.col(s),
                                  points.held.col(s),
-                                 deformation_gradient<Dim>(block, int(row), nodes),
+                                 F_s,
                                  points.weight[s],
                                  points.penalty[s],
                                  points.material[s],
@@ -278,7 +280,9 @@ void Clamps<Dim>::add_volume_work_derivative(const VectorXd& z, const MatrixXd& 
       }
     }
     for (int a = 0; a < Dim; ++a) {
-      const MatrixXd sum = functions.transpose() * derivative[a];
+      MatrixXd sum = MatrixXd::Zero(Q.cols(), derivative[a].cols());
+      dense_kernels().add_product(sum.data(), int(sum.rows()), functions.data(), n, derivative[a].data(), n, int(sum.rows()),
+                                  int(sum.cols()), n);
       for (size_t j = 0; j < block.columns.size(); ++j) G.col(Dim * block.columns[j] + a) += sum.col(Eigen::Index(j));
     }
   });

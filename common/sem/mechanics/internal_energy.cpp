@@ -266,34 +266,31 @@ void InternalEnergy<Dim>::hessian(const VectorXd& z, bool project_psd, Symmetric
 template <int Dim>
 void InternalEnergy<Dim>::add_pressure_hessian(const VectorXd& z, SymmetricMatrix& H) {
   const auto& q = pressure_.functions();
-  MatrixXd G = MatrixXd::Zero(q.interior.n_columns, size()), scaled;
+  const DenseKernels& kernels = dense_kernels();
+  MatrixXd G = MatrixXd::Zero(q.interior.n_columns, size()), scaled, local;
   set_coefficients(map_, z, y_);
   for (size_t i = 0; i < work_.size(); ++i) {
-    const auto& block = map_.blocks[i];
+    const auto& points = map_.blocks[i].points;
     const auto& values = q.interior.blocks[i];
     Workspace& work = work_[i];
     deformation_gradients(int(i));
-    const int n = int(block.points.size());
-    scaled.resize(n, work.columns.size());
-    std::array<Points<Dim>, Dim> first;  // v dg/dF_ab: column a of row b
-    for (auto& rows : first) rows = Points<Dim>::Zero(Dim, n);
+    const int n = int(points.size()), N = int(work.columns.size()), m = int(values.columns.size());
+    MatrixXd first = MatrixXd::Zero(n, Dim * Dim);  // v dg/dF_ab in column Dim a + b
     for (int k = 0; k < n; ++k) {
-      if (!pressure(block.points[k])) continue;
-      const auto g = volume_measure<Dim>(material(block.points[k]).model, F_at<Dim>(work.F, k));
-      for (int b = 0; b < Dim; ++b) first[b].col(k) = weight_[block.points[k]] * g.first.col(b);
+      if (!pressure(points[k])) continue;
+      const auto g = volume_measure<Dim>(material(points[k]).model, F_at<Dim>(work.F, k));
+      for (int a = 0; a < Dim; ++a)
+        for (int b = 0; b < Dim; ++b) first(k, Dim * a + b) = weight_[points[k]] * g.first(a, b);
     }
-    MatrixXd local(values.columns.size(), work.columns.size());
+    scaled.resize(n, N);
     for (int a = 0; a < Dim; ++a) {
-      for (size_t j = 0; j < work.columns.size(); ++j)
-        for (int k = 0; k < n; ++k) {
-          double sum = 0;
-          for (int b = 0; b < Dim; ++b) sum += first[b](a, k) * work.gradient(b * n + k, j);
-          scaled(k, j) = sum;
-        }
-      local.noalias() = values.value.transpose() * scaled;
-      for (size_t j = 0; j < work.columns.size(); ++j)
-        for (size_t m = 0; m < values.columns.size(); ++m)
-          G(values.columns[m], Dim * work.columns[j] + a) += local(m, j);
+      std::array<const double*, Dim> factors;
+      for (int b = 0; b < Dim; ++b) factors[b] = first.col(Dim * a + b).data();
+      kernels.weigh_rows(scaled.data(), n, factors.data(), Dim, work.gradient.data(), Dim * n, n, N);
+      local.setZero(m, N);
+      kernels.add_product(local.data(), m, values.value.data(), n, scaled.data(), n, m, N, n);
+      for (int j = 0; j < N; ++j)
+        for (int c = 0; c < m; ++c) G(values.columns[c], Dim * work.columns[j] + a) += local(c, j);
     }
   }
   if (!clamps_.empty()) clamps_.add_volume_work_derivative(z, q.on_clamps, G);

@@ -36,23 +36,23 @@ Pressure<Dim>::Pressure(PressureFunctions<Dim> functions, const VectorXd& weight
 template <int Dim>
 void Pressure<Dim>::solve(const VectorXd& g, const VectorXd& clamp_work) {
   b_ = VectorXd::Zero(functions_.interior.n_columns);
-  for (const auto& block : functions_.interior.blocks)
+  for (const auto& block : functions_.interior.blocks) {
+    VectorXd work(block.points.size());
     for (size_t k = 0; k < block.points.size(); ++k) {
       const int point = block.points[k];
-      if (!(functions_.lambda[point] > 0)) continue;
-      const double work = weight_[point] * g[point];
-      for (size_t j = 0; j < block.columns.size(); ++j) b_[block.columns[j]] += work * block.value(k, j);
+      work[k] = functions_.lambda[point] > 0 ? weight_[point] * g[point] : 0;
     }
+    const VectorXd sums = block.value.transpose() * work;
+    for (size_t j = 0; j < block.columns.size(); ++j) b_[block.columns[j]] += sums[j];
+  }
   for (int s = 0; s < clamp_work.size(); ++s)
     if (functions_.clamp_mixed[s]) b_ += clamp_work[s] * functions_.on_clamps.row(s).transpose();
   y_ = b_;
   factor_.solve_in_place(y_);
-  for (const auto& block : functions_.interior.blocks)
-    for (size_t k = 0; k < block.points.size(); ++k) {
-      double p = 0;
-      for (size_t j = 0; j < block.columns.size(); ++j) p += block.value(k, j) * y_[block.columns[j]];
-      interior_[block.points[k]] = p;
-    }
+  for (const auto& block : functions_.interior.blocks) {
+    const VectorXd p = block.value * y_(block.columns).eval();
+    for (size_t k = 0; k < block.points.size(); ++k) interior_[block.points[k]] = p[k];
+  }
   for (int s = 0; s < on_clamps_.size(); ++s)
     if (functions_.clamp_mixed[s]) on_clamps_[s] = functions_.on_clamps.row(s).dot(y_);
 }

@@ -1,8 +1,9 @@
 #include "sem/solve/cholesky.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
+
+#include "sem/solve/dense_kernels.h"
 
 namespace sem {
 
@@ -17,8 +18,7 @@ bool Cholesky::compute(const Eigen::MatrixXd& A) {
   }
   for (Eigen::Index j = 0; j < n; ++j)
     for (Eigen::Index i = j; i < n; ++i) factor_(i, j) = A(i, j) * scale_(i) * scale_(j);
-  Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(factor_);  // in place
-  if (llt.info() != Eigen::Success) return false;
+  if (!dense_kernels().cholesky(factor_.data(), int(n), int(n))) return false;
   for (Eigen::Index i = 0; i < n; ++i)  // written so that NaN fails
     if (!(factor_(i, i) * factor_(i, i) > zero_level(n))) return false;
   return ok_ = true;
@@ -33,7 +33,10 @@ void Cholesky::solve_in_place(Eigen::VectorXd& b) const {
 
 void Cholesky::solve_factor_in_place(Eigen::MatrixXd& B) const {
   for (Eigen::Index j = 0; j < B.cols(); ++j) B.col(j).array() *= scale_.array();
-  factor_.triangularView<Eigen::Lower>().solveInPlace(B);
+  Eigen::MatrixXd rows = B.transpose();  // B^T := B^T L^-T
+  const int n = int(B.rows()), m = int(B.cols());
+  dense_kernels().solve_right(factor_.data(), n, rows.data(), m, m, n);
+  B = rows.transpose();
 }
 
 void Cholesky::solve_transposed_factor_in_place(Eigen::MatrixXd& B) const {
