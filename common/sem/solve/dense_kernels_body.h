@@ -16,6 +16,8 @@ using ConstView = Eigen::Map<const Matrix, 0, Eigen::OuterStride<>>;
 View view(double* A, int rows, int columns, int ld) { return {A, rows, columns, Eigen::OuterStride<>(ld)}; }
 ConstView view(const double* A, int rows, int columns, int ld) { return {A, rows, columns, Eigen::OuterStride<>(ld)}; }
 
+constexpr int narrow = 3;  // so few columns do not pay for the copies that a product of matrices makes
+
 bool cholesky(double* A, int n, int ld) {
   auto all = view(A, n, n, ld);
   Eigen::Ref<Matrix> target(all);
@@ -29,11 +31,23 @@ void solve_right(const double* L, int ld_l, double* B, int ld_b, int m, int n) {
 }
 
 void add_scaled_product(double factor, double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int m, int n, int k) {
-  view(C, m, n, ld_c).noalias() += factor * view(A, m, k, ld_a) * view(B, n, k, ld_b).transpose();
+  auto target = view(C, m, n, ld_c);
+  const auto left = view(A, m, k, ld_a), right = view(B, n, k, ld_b);
+  if (n <= narrow) {
+    for (int j = 0; j < n; ++j) target.col(j).noalias() += factor * (left * right.row(j).transpose());
+    return;
+  }
+  target.noalias() += factor * left * right.transpose();
 }
 
 void add_product(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int m, int n, int k) {
-  view(C, m, n, ld_c).noalias() += view(A, k, m, ld_a).transpose() * view(B, k, n, ld_b);
+  auto target = view(C, m, n, ld_c);
+  const auto left = view(A, k, m, ld_a), right = view(B, k, n, ld_b);
+  if (n <= narrow) {
+    for (int j = 0; j < n; ++j) target.col(j).noalias() += left.transpose() * right.col(j);
+    return;
+  }
+  target.noalias() += left.transpose() * right;
 }
 
 void add_lower_product(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int n, int k) {
