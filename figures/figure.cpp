@@ -34,6 +34,7 @@ const std::vector<Figure>& all_figures() {
                                               limb_slices(),
                                               torus_origins(),
                                               beam_parts_3d(),
+                                              work_precision_3d(),
                                               growing_beam(),
                                               beam_sparsity(),
                                               twist(),

@@ -64,6 +64,7 @@ Figure deflection_parts();
 Figure condensed_convergence();
 Figure manufactured();
 Figure work_precision();
+Figure work_precision_3d();
 Figure stiffness_sparsity();
 Figure nonzeros_step_time();
 Figure pruning();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "figures/figure.h"
+#include "figures/measured.h"
 #include "figures/scene_model.h"
 #include "sem/scene/files.h"
 #include "src2d/baseline/finite_elements.h"
@@ -86,12 +87,6 @@ std::vector<std::string> overrides(const Body& body, int n, int degree, double c
           "method.threads=1"};
 }
 
-struct Measured {
-  double unknowns, uy, preparation, solution;  // m, s
-
-  double seconds() const { return preparation + solution; }
-};
-
 Measured run_scene(const Body& body, const std::string& scene,
                    const std::vector<std::string>& settings) {
   const double start = thread_seconds();
@@ -118,18 +113,6 @@ Measured run_triangles(const Body& body, int n, double grading) {
   (mesh.nodes.colwise() - body.probe).colwise().norm().minCoeff(&probe);
   return {double(solution.n_unknowns), solution.converged ? solution.displacement(1, probe) : NAN,
           meshed + solution.preparation_seconds, solution.solve_seconds};
-}
-
-template <class Run>
-Measured fastest(const Run& run) {
-  Measured best = run();
-  double spent = best.seconds();
-  for (int i = 1; i < 4 && spent < 0.1; ++i) {
-    const Measured next = run();
-    spent += next.seconds();
-    if (next.seconds() < best.seconds()) best = next;
-  }
-  return best;
 }
 
 // The curves; the condensed ones are of degree 2, 3, 4.
@@ -166,8 +149,8 @@ void measure(Data& data) {
       for (const int n : method < triangles ? body.parts : std::vector{1, 2, 4, 8}) {
         const Measured m = fastest([&] { return run(body, method, n); });
         runs.add(
-            {double(b), double(method), double(n), m.unknowns, m.uy, m.preparation, m.solution});
-        for (; n_reached < goals.size() && std::abs(m.uy / body.truth - 1) <= goals[n_reached];
+            {double(b), double(method), double(n), m.unknowns, m.value, m.preparation, m.solution});
+        for (; n_reached < goals.size() && std::abs(m.value / body.truth - 1) <= goals[n_reached];
              ++n_reached)
           reached.add({double(b), double(method), goals[n_reached], m.unknowns, m.seconds()});
       }
