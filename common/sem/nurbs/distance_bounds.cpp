@@ -50,12 +50,12 @@ double DistanceBounds::set(const Vec4* c, const std::array<int, 2>& degree, bool
   return least;
 }
 
-DistanceBounds::Curvature DistanceBounds::curvature(double m) {
+DistanceCurvature DistanceBounds::curvature(double m) {
   const int p = 2 * degree_[0], q = 2 * degree_[1], row = p + 1;
   const double* Bp = binomials(p);
   const double* Bq = binomials(q);
   const double infinity = std::numeric_limits<double>::infinity();
-  Curvature bounds{infinity, infinity, 0, infinity, 0};
+  DistanceCurvature bounds{infinity, infinity, 0, infinity, 0};
   f_.resize(q_.size());
   for (int j = 0, i = 0; j <= q; ++j)
     for (int k = 0; k <= p; ++k, ++i) {
@@ -84,7 +84,7 @@ bool DistanceBounds::at_most_one_stationary(double m, double most) {
   double lower[2] = {infinity, infinity}, upper[2] = {-infinity, -infinity};  // of f_u, f_v
   double uu = infinity, vv = infinity, uv = 0;
   for (const double value : {m, std::max(m, most)}) {
-    const Curvature bounds = curvature(value);
+    const DistanceCurvature bounds = curvature(value);
     uu = std::min(uu, bounds.uu);
     vv = std::min(vv, bounds.vv);
     uv = std::max(uv, bounds.uv);

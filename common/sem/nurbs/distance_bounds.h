@@ -11,6 +11,12 @@ namespace sem::detail {
 
 using Vec4 = Eigen::Vector4d;  // w (P - X), w of a control point P
 
+/// Bounds of the second derivatives of f = q - m v in a patch's own parameters, and of v.
+struct DistanceCurvature {
+  double uu, vv, uv;  ///< at least; at least; |f_uv| at most
+  double least_v, largest_v;
+};
+
 /// q = |w (C - X)|^2 and v = w^2 of a patch.
 class DistanceBounds {
  public:
@@ -19,12 +25,7 @@ class DistanceBounds {
   /// degrees of at most 12.
   double set(const Vec4* c, const std::array<int, 2>& degree, bool kernel, int& where);
 
-  /// Bounds of the second derivatives of f = q - m v in the patch's own parameters, and of v.
-  struct Curvature {
-    double uu, vv, uv;  ///< at least; at least; |f_uv| at most
-    double least_v, largest_v;
-  };
-  Curvature curvature(double m);
+  DistanceCurvature curvature(double m);
 
   /// True if the patch has at most one stationary point of q / v with a value from m to `most`.
   /// With the value M it is one of q - M v, whose coefficients are linear in M.

@@ -3,6 +3,7 @@
 #include "sem/nurbs/axis_map.h"
 #include "sem/nurbs/foot_cells.h"
 #include "sem/nurbs/power_form.h"
+#include "sem/nurbs/surface_cells.h"
 
 namespace sem {
 namespace {
@@ -31,6 +32,14 @@ std::shared_ptr<const detail::FootCells> feet_of(const PreparedNurbs<1, 2>& part
 }
 template <int ParamDim, int Dim>
 std::shared_ptr<const detail::FootCells> feet_of(const PreparedNurbs<ParamDim, Dim>&) {
+  return nullptr;
+}
+
+std::shared_ptr<const detail::SurfaceCells> cells_of(const PreparedNurbs<2, 3>& part) {
+  return detail::make_surface_cells(part);
+}
+template <int ParamDim, int Dim>
+std::shared_ptr<const detail::SurfaceCells> cells_of(const PreparedNurbs<ParamDim, Dim>&) {
   return nullptr;
 }
 
@@ -82,6 +91,7 @@ PreparedNurbs<ParamDim, Dim> prepare(const Nurbs<ParamDim, Dim>& nurbs) {
   }
   result.power = detail::make_power_form(result);
   result.feet = feet_of(result);
+  result.cells = cells_of(result);
   return result;
 }
 

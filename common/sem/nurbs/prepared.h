@@ -12,6 +12,7 @@ namespace sem {
 
 namespace detail {
 struct FootCells;
+struct SurfaceCells;
 }
 
 /// One rational Bezier piece over a box of the parameters, with control
@@ -35,6 +36,7 @@ struct PreparedNurbs {
   Box<Dim> box;                                       ///< of all pieces
   std::shared_ptr<const detail::PowerForm> power;     ///< for the kernels; null: too inaccurate
   std::shared_ptr<const detail::FootCells> feet;      ///< for closest points; curves in the plane
+  std::shared_ptr<const detail::SurfaceCells> cells;    ///< for closest points; surfaces
   std::shared_ptr<const Region<ParamDim, Dim>> region;  ///< what the part is trimmed to; null: all of its domain.
                                                         ///< Hits and closest points keep to it.
 };
