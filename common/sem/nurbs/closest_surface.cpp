@@ -3,6 +3,7 @@
 
 #include "sem/nurbs/closest.h"
 #include "sem/nurbs/distance_bounds.h"
+#include "sem/nurbs/search_counts.h"
 #include "sem/nurbs/surface_cells.h"
 #include "sem/nurbs/surface_foot.h"
 
@@ -86,6 +87,7 @@ class SurfaceClosest {
       if (!hopeless(bound)) search(k, bound);
     for (int step = 0; step < 3 && polish(); ++step) {
     }
+    detail::search_counts().closest_patches += n_looked_at_;
     return best_;
   }
 
@@ -106,6 +108,7 @@ class SurfaceClosest {
 
   void search(int index, double bound) {
     const SurfaceCell& cell = cells_.cells[index];
+    ++n_looked_at_;
     if (!region_ && finish(cell)) return;
     if (cell.first_child < 0) {
       refine(cell, bound);
@@ -158,6 +161,7 @@ class SurfaceClosest {
     scratch_.patches[0] = {cell.patch, bound};
     for (int n = 1, n_patches = 0; n > 0;) {
       const Patch patch = scratch_.patches[n - 1];
+      ++n_looked_at_;
       if (hopeless(patch.bound) || patch.halvings > max_halvings || ++n_patches > max_patches ||
           finish(patch, coefficients(n - 1))) {
         --n;
@@ -320,6 +324,7 @@ class SurfaceClosest {
   const BezierPiece<2, 3>* best_piece_ = nullptr;
   Vec<2> best_s_, split_at_;
   int n_ = 0;
+  long n_looked_at_ = 0;
   bool rational_ = false;  // weights of the piece differ
 };
 

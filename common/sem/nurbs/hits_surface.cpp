@@ -5,6 +5,7 @@
 #include "sem/nurbs/bernstein.h"
 #include "sem/nurbs/hits.h"
 #include "sem/nurbs/kernels.h"
+#include "sem/nurbs/search_counts.h"
 
 // Two functions f, g = w n.(P - origin), n perpendicular to the line, vanish
 // together where the line meets the surface. A patch is split until its
@@ -112,6 +113,7 @@ class SurfaceHits {
       detail::split_patch<2>(c, piece.degree.data(), axis, 0.5, coefficients(n), c);
       ++n;
     }
+    detail::search_counts().hit_patches += n_patches_;
     if (along) add_edges();
   }
 
