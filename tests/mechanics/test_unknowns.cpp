@@ -36,6 +36,51 @@ TEST_CASE_TEMPLATE("paper's unknowns: each control point is one, and affine fiel
   CHECK((evaluate(d.interior, z) - x).cwiseAbs().maxCoeff() < 1e-12);
 }
 
+TEST_CASE_TEMPLATE("across a sliver differences from leaders are the unknowns: the same map, and leaders lose the large entries of B", T,
+                   D2, D3) {
+  constexpr int Dim = T::value;
+  const double thickness = 1e-6;
+  Vec<Dim> size = Vec<Dim>::Ones();
+  size[1] = thickness;
+  MethodOptions options;
+  options.rays.n_rays = 3;
+  options.weights.cutoff = 0.8;
+  const auto plain = discretize<Dim>({test::box<Dim>(Vec<Dim>::Zero(), size)}, options);
+  options.near_differences = true;
+  const auto d = discretize<Dim>({test::box<Dim>(Vec<Dim>::Zero(), size)}, options);
+  CHECK(plain.unknowns.S.size() == 0);
+  REQUIRE(d.unknowns.S.rows() == d.unknowns.size());
+
+  const auto leader = leaders_of_near_controls(d.boundary);
+  const Points<Dim> p = rest_controls(d.boundary);
+  int n_leaders = 0;
+  double of_leaders = 0, of_others = 0;  // largest entries of B
+  for (int c = 0; c < int(leader.size()); ++c) {
+    CHECK((p.col(c) - p.col(leader[c])).norm() < 2 * thickness);
+    double& largest = leader[c] == c ? of_leaders : of_others;
+    largest = std::max(largest, dense_gradient(d.interior, 1).col(c).cwiseAbs().maxCoeff());
+    n_leaders += leader[c] == c;
+  }
+  CHECK(n_leaders == 1 << (Dim - 1));  // one at each corner of the plane
+  CHECK(of_leaders < 10);
+  CHECK(of_others > 0.1 / thickness);
+
+  std::srand(4);
+  const Points<Dim> moved = p + thickness * Points<Dim>::Random(Dim, p.cols());
+  const MatrixXd inverse = test::least_squares(d.unknowns.S, MatrixXd::Identity(p.cols(), p.cols()));
+  const VectorXd z = test::stacked<Dim>(moved * inverse.transpose());
+  CHECK((control_points(d.unknowns, z) - moved).cwiseAbs().maxCoeff() < 1e-14);
+  CHECK((evaluate(d.interior, z) - evaluate(plain.interior, test::stacked<Dim>(moved))).cwiseAbs().maxCoeff() < 1e-4 * thickness);
+  const Mat<Dim> A = Mat<Dim>::Random();
+  const Points<Dim> x = (A * d.quadrature.position).colwise() + size;
+  CHECK((evaluate(d.interior, affine_field<Dim>(d.unknowns, A, size)) - x).cwiseAbs().maxCoeff() < 1e-12);
+}
+
+TEST_CASE("leaders: none where control points coincide or are far from each other") {
+  const auto d = box<2>();  // joints coincide
+  CHECK(leaders_of_near_controls(d.boundary).empty());
+}
+
 TEST_CASE_TEMPLATE("S that mixes unknowns: control points, pins and the error form follow it", T, D2, D3) {
   constexpr int Dim = T::value;
   auto d = box<Dim>();

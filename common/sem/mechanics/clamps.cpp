@@ -1,5 +1,6 @@
 #include "sem/mechanics/clamps.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +15,45 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
+
+// Factor of the penalty where a layer along the boundary is crushed, with its derivatives by
+// vec(F). It thins to 1 / |F^-T N| of its rest thickness, and the square of a neo-Hookean traction
+// grows beside the stored energy by q = |F^-T N|^2: a constant penalty loses to -P N . r. From half
+// of its thickness on the penalty grows as q:
+//   s = 1 + t^3 / (1 + t^2), t = max(0, q - 4);
+// with m = F^-T N and a = F^-1 m, dq = -2 m . dF a. Materials without a barrier at J = 0 need none.
+template <int Dim>
+struct Stiffening {
+  double factor = 1;
+  Mat<Dim> first = Mat<Dim>::Zero();
+  StressDerivative<Dim> second = StressDerivative<Dim>::Zero();
+};
+
+bool has_barrier(MaterialModel model) {
+  return model == MaterialModel::neo_log || model == MaterialModel::neo_ref ||
+         model == MaterialModel::neo_iso;
+}
+
+template <int Dim>
+Stiffening<Dim> stiffening(const Material& material, const Mat<Dim>& F, const Vec<Dim>& normal) {
+  if (!has_barrier(material.model)) return {};
+  const Mat<Dim> inverse = F.inverse();
+  const Vec<Dim> m = inverse.transpose() * normal, a = inverse * m;
+  const double t = m.squaredNorm() - 4, u = 1 + t * t;
+  if (!(t > 0)) return {};
+  const double slope = t * t * (t * t + 3) / (u * u), bend = 2 * t * (3 - t * t) / (u * u * u);
+  Stiffening<Dim> s{1 + t * t * t / u, -2 * slope * m * a.transpose(), {}};
+  const Mat<Dim> dq = -2 * m * a.transpose();
+  for (int c = 0; c < Dim; ++c)
+    for (int d = 0; d < Dim; ++d) {  // along dF = e_c e_d^T
+      const Vec<Dim> dm = -m[c] * inverse.row(d).transpose(),
+                     da = inverse * dm - a[d] * inverse.col(c);
+      const Mat<Dim> column =
+          bend * dq(c, d) * dq - 2 * slope * (dm * a.transpose() + m * da.transpose());
+      s.second.col(c + Dim * d) = column.reshaped();
+    }
+  return s;
+}
 
 // One held point, ready for the formulas.
 template <int Dim>
@@ -40,17 +80,18 @@ void visit_points(const ClampedPoints<Dim>& points, const VectorXd& z, const dou
       const int s = block.points[row];
       Mat<Dim> F_s;
       for (int b = 0; b < Dim; ++b) F_s.col(b) = F[b].col(row);
-      const HeldPoint<Dim> point{block,
-                                 int(row),
-                                 points.held.col(s).cwiseProduct(x.col(row) - points.position.col(s)),
-                                 points.normal.col(s),
-                                 points.held.col(s),
-                                 F_s,
-                                 points.weight[s],
-                                 points.penalty[s],
-                                 points.material[s],
-                                 pressure && !std::isnan(pressure[s]) ? pressure + s : nullptr,
-                                 s};
+      const HeldPoint<Dim> point{
+          block,
+          int(row),
+          points.held.col(s).cwiseProduct(x.col(row) - points.position.col(s)),
+          points.normal.col(s),
+          points.held.col(s),
+          F_s,
+          points.weight[s],
+          points.penalty[s],
+          points.material[s],
+          pressure && !std::isnan(pressure[s]) ? pressure + s : nullptr,
+          s};
       visit(point);
     }
   }
@@ -71,7 +112,7 @@ void visit_blocks(const ClampedPoints<Dim>& points, const VectorXd& z, const dou
   if (!held.empty()) visit(held);
 }
 
-// K of the penalty beta/(2h) r . K r, held components only.
+// K of the penalty beta/(2h) r . K r at rest, held components only.
 template <int Dim>
 Mat<Dim> penalty_matrix(const HeldPoint<Dim>& p) {
   const Mat<Dim> K = 2 * p.material.lame_mu() * Mat<Dim>::Identity() +
@@ -97,9 +138,10 @@ StressDerivative<Dim> third_derivative(const HeldPoint<Dim>& p) {
           stress_derivative<Dim>(p.material, p.F - D, p.pressure));
 }
 
-// The Hessian of all points of a block in its columns: with the traction on held components
-// held dP N = T_j dz_j by column j, sum of w (v_m v_j K - v_m T_j - v_j T_m^T - grad v_m . D . grad v_j), one
-// product over the points for each pair of components.
+// The Hessian of all points of a block in its columns: with the traction on held components, less
+// what dF changes of the penalty, held (dP N - K r ds) = T_j dz_j by column j, and s K for K, sum
+// of w (v_m v_j K - v_m T_j - v_j T_m^T - grad v_m . D . grad v_j), one product over the points for
+// each pair of components.
 template <int Dim>
 MatrixXd block_hessian(const std::vector<HeldPoint<Dim>>& points, bool approximate) {
   const MapBlock<Dim>& block = points[0].block;
@@ -107,13 +149,20 @@ MatrixXd block_hessian(const std::vector<HeldPoint<Dim>>& points, bool approxima
   const auto rows = Eigen::seqN(points[0].row, n_points);
   const MatrixXd V = block.value(rows, Eigen::all);
   MatrixXd G(Dim * n_points, n);
-  for (int b = 0; b < Dim; ++b) G.middleRows(b * n_points, n_points) = block.gradient[b](rows, Eigen::all);
-  std::vector<Mat<Dim>> K;
+  for (int b = 0; b < Dim; ++b)
+    G.middleRows(b * n_points, n_points) = block.gradient[b](rows, Eigen::all);
+  std::vector<Mat<Dim>> K, ds;
+  std::vector<Vec<Dim>> Kr;
   std::vector<StressDerivative<Dim>> C, D;
   for (const auto& p : points) {
-    K.push_back(p.weight * penalty_matrix(p));
+    const Mat<Dim> at_rest = p.weight * penalty_matrix(p);
+    const Stiffening<Dim> s = stiffening<Dim>(p.material, p.F, p.normal);
+    K.push_back(s.factor * at_rest);
+    Kr.push_back(at_rest * p.residual);
+    ds.push_back(approximate ? Mat<Dim>::Zero() : s.first);
     C.push_back(p.weight * stress_derivative<Dim>(p.material, p.F, p.pressure));
-    if (!approximate) D.push_back(p.weight * third_derivative(p));
+    if (!approximate)
+      D.push_back(p.weight * third_derivative(p) - Kr.back().dot(p.residual) / 2 * s.second);
   }
   // Rows of `target`: minus the sum over d of factor(k, d) G_d, #points by #columns.
   const DenseKernels& kernels = dense_kernels();
@@ -124,12 +173,13 @@ MatrixXd block_hessian(const std::vector<HeldPoint<Dim>>& points, bool approxima
       for (int k = 0; k < n_points; ++k) factors(k, d) = -factor(k, d);
       columns[d] = factors.col(d).data();
     }
-    kernels.weigh_rows(&target(first, 0), int(target.rows()), columns.data(), Dim, G.data(), Dim * n_points, n_points, n);
+    kernels.weigh_rows(&target(first, 0), int(target.rows()), columns.data(), Dim, G.data(),
+                       Dim * n_points, n_points, n);
   };
   // w T of component a by component c.
   const auto traction = [&](int a, int c) {
     return [&, a, c](int k, int d) {
-      double factor = 0;
+      double factor = -Kr[k][a] * ds[k](c, d);
       for (int b = 0; b < Dim; ++b) factor += points[k].normal[b] * C[k](a + Dim * b, c + Dim * d);
       return points[k].held[a] * factor;
     };
@@ -146,7 +196,8 @@ MatrixXd block_hessian(const std::vector<HeldPoint<Dim>>& points, bool approxima
       for (int k = 0; k < n_points; ++k) right.row(k) += K[k](a, c) * V.row(k);
       subtract_weighed(traction(c, a), left, n_points);
       for (int b = 0; b < Dim && !approximate; ++b)
-        subtract_weighed([&](int k, int d) { return D[k](a + Dim * b, c + Dim * d); }, right, (2 + b) * n_points);
+        subtract_weighed([&](int k, int d) { return D[k](a + Dim * b, c + Dim * d); }, right,
+                         (2 + b) * n_points);
       local.setZero();
       kernels.add_product(local.data(), n, left.data(), n_rows, right.data(), n_rows, n, n, n_rows);
       for (int j = 0; j < n; ++j)
@@ -183,7 +234,8 @@ double Clamps<Dim>::energy(const VectorXd& z, const double* pressure) const {
       sum = std::numeric_limits<double>::infinity();
       return;
     }
-    sum += p.weight * (p.residual.dot(penalty_matrix(p) * p.residual) / 2 -
+    sum += p.weight * (stiffening<Dim>(p.material, p.F, p.normal).factor *
+                           p.residual.dot(penalty_matrix(p) * p.residual) / 2 -
                        (first_piola<Dim>(p.material, p.F, p.pressure) * p.normal).dot(p.residual));
   });
   for (const auto& spring : controls_) {
@@ -197,13 +249,16 @@ double Clamps<Dim>::energy(const VectorXd& z, const double* pressure) const {
 template <int Dim>
 void Clamps<Dim>::add_gradient(const VectorXd& z, VectorXd& g, const double* pressure) const {
   visit_points<Dim>(points_, z, pressure, [&](const HeldPoint<Dim>& p) {
-    // dV = force . d(x - d) - Q : dF with Q = C : (r (x) N).
+    // dV = force . d(x - d) - Q : dF with Q = C : (r (x) N) - r . K r/2 ds/dF.
     const Vec<Dim> traction =
         p.held.cwiseProduct(first_piola<Dim>(p.material, p.F, p.pressure) * p.normal);
-    const Vec<Dim> force = p.weight * (penalty_matrix(p) * p.residual - traction);
+    const Stiffening<Dim> s = stiffening<Dim>(p.material, p.F, p.normal);
+    const Vec<Dim> penalty = penalty_matrix(p) * p.residual;
+    const Vec<Dim> force = p.weight * (s.factor * penalty - traction);
     const Eigen::Matrix<double, Dim * Dim, 1> q =
         stress_derivative<Dim>(p.material, p.F, p.pressure) * work_direction(p);
-    const Mat<Dim> Q = p.weight * Eigen::Map<const Mat<Dim>>(q.data());
+    const Mat<Dim> Q =
+        p.weight * (Eigen::Map<const Mat<Dim>>(q.data()) - penalty.dot(p.residual) / 2 * s.first);
     for (size_t j = 0; j < p.block.columns.size(); ++j) {
       Vec<Dim> f = p.block.value(p.row, j) * force;
       for (int b = 0; b < Dim; ++b) f -= p.block.gradient[b](p.row, j) * Q.col(b);
@@ -233,7 +288,8 @@ void Clamps<Dim>::add_hessian(const VectorXd& z, bool approximate, SymmetricMatr
     for (int a = 0; a < Dim; ++a)
       for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i)
-          sum(Dim * i + a, Dim * j + a) = spring.held[a] * spring.stiffness * row[columns[i]] * row[columns[j]];
+          sum(Dim * i + a, Dim * j + a) =
+              spring.held[a] * spring.stiffness * row[columns[i]] * row[columns[j]];
     H.add(columns, sum);
   }
 }
@@ -276,14 +332,16 @@ void Clamps<Dim>::add_volume_work_derivative(const VectorXd& z, const MatrixXd& 
       functions.row(k) = Q.row(p.index);
       for (int a = 0; a < Dim; ++a) {
         derivative[a].row(k) = by_residual[a] * block.value.row(p.row);
-        for (int b = 0; b < Dim; ++b) derivative[a].row(k) += by_F(a, b) * block.gradient[b].row(p.row);
+        for (int b = 0; b < Dim; ++b)
+          derivative[a].row(k) += by_F(a, b) * block.gradient[b].row(p.row);
       }
     }
     for (int a = 0; a < Dim; ++a) {
       MatrixXd sum = MatrixXd::Zero(Q.cols(), derivative[a].cols());
-      dense_kernels().add_product(sum.data(), int(sum.rows()), functions.data(), n, derivative[a].data(), n, int(sum.rows()),
-                                  int(sum.cols()), n);
-      for (size_t j = 0; j < block.columns.size(); ++j) G.col(Dim * block.columns[j] + a) += sum.col(Eigen::Index(j));
+      dense_kernels().add_product(sum.data(), int(sum.rows()), functions.data(), n,
+                                  derivative[a].data(), n, int(sum.rows()), int(sum.cols()), n);
+      for (size_t j = 0; j < block.columns.size(); ++j)
+        G.col(Dim * block.columns[j] + a) += sum.col(Eigen::Index(j));
     }
   });
 }

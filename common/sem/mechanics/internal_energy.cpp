@@ -31,17 +31,20 @@ template <int Dim>
 InternalEnergy<Dim>::InternalEnergy(const Map<Dim>& map, const VectorXd& weight,
                                     const MaterialField& materials, const SymmetricMatrix& stability,
                                     Clamps<Dim> clamps, Pressure<Dim> pressure,
-                                    std::shared_ptr<const Elimination> plan)
+                                    std::shared_ptr<const Elimination> plan, Unresisted unresisted)
     : map_(joined(map, blocks_to_join(map))),
       weight_(weight),
       materials_(materials),
       stability_(stability),
+      unresisted_(std::move(unresisted)),
       assembly_(map_, plan ? plan : stability.plan() ? stability.plan() : dense_elimination(map.n_columns), Dim),
       clamps_(std::move(clamps)),
       pressure_(std::move(pressure)),
       work_(map_.blocks.size()),
       stability_z_(Dim * map.n_columns),
       stability_force_(Dim * map.n_columns) {
+  if (unresisted_.one.size() == 0) unresisted_.one.setOnes(map.n_columns);
+  if (unresisted_.rest.size() == 0) unresisted_.rest.setZero(size());
   quadratic_ = std::all_of(materials_.of_point.begin(), materials_.of_point.end(), [&](int m) {
     return is_quadratic(materials_.materials[m].model);
   });
@@ -149,11 +152,14 @@ double InternalEnergy<Dim>::mixed_energy(const VectorXd& z) {
   return sum;
 }
 
-// gamma S z. S knows no translation: about the first node, so that a body far from zero loses no digits.
+// gamma S z, of the displacement and about that of the first node: a body far from zero, and a thin one whose weight is
+// no more than the rounding of S times its size, lose no digits.
 template <int Dim>
 void InternalEnergy<Dim>::set_stability_force(const VectorXd& z) {
-  const Eigen::Map<const Points<Dim>> nodes(z.data(), Dim, map_.n_columns);
-  Eigen::Map<Points<Dim>>(stability_z_.data(), Dim, map_.n_columns) = nodes.colwise() - nodes.col(0);
+  Eigen::Map<Points<Dim>> nodes(stability_z_.data(), Dim, map_.n_columns);
+  stability_z_ = z - unresisted_.rest;
+  const Vec<Dim> first = nodes.col(0);
+  for (int j = 0; j < nodes.cols(); ++j) nodes.col(j) -= unresisted_.one[j] * first;
   stability_.multiply(stability_z_, stability_force_);
 }
 

@@ -18,6 +18,12 @@ struct MaterialField {
   std::vector<int> of_point;  ///< #points: index into materials
 };
 
+/// Fields that S does not resist, in z: left out of S z, whose rounding would be that of their size.
+struct Unresisted {
+  Eigen::VectorXd one = {};   ///< n_columns: the scalar field 1; empty: all ones
+  Eigen::VectorXd rest = {};  ///< Dim n_columns: the rest shape; empty: the map does not keep it
+};
+
 /// Implements the solvers' Potential. All workspaces are allocated once.
 ///
 /// The Hessian uses that every component of y has the same scalar basis: with
@@ -34,7 +40,7 @@ class InternalEnergy : public Potential {
   /// the couplings of the map, of the clamps and, if there is a pressure, of everything; that of a stability; null: dense.
   InternalEnergy(const Map<Dim>& map, const Eigen::VectorXd& weight, const MaterialField& materials,
                  const SymmetricMatrix& stability, Clamps<Dim> clamps = {}, Pressure<Dim> pressure = {},
-                 std::shared_ptr<const Elimination> plan = nullptr);
+                 std::shared_ptr<const Elimination> plan = nullptr, Unresisted unresisted = {});
 
   int size() const override { return Dim * map_.n_columns; }
   double energy(const Eigen::VectorXd& z) override;
@@ -82,6 +88,7 @@ class InternalEnergy : public Potential {
   Eigen::VectorXd weight_;
   MaterialField materials_;
   SymmetricMatrix stability_;
+  Unresisted unresisted_;
   Assembly<Dim> assembly_;
   Clamps<Dim> clamps_;
   Pressure<Dim> pressure_;

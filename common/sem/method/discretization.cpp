@@ -43,14 +43,40 @@ Theta<Dim> measure_theta(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
   return {std::move(distances), std::move(theta)};
 }
 
+// The samples' rows of J in terms of leaders and differences from them.
+template <int Dim>
+Samples<Dim> by_differences(Samples<Dim> samples, const std::vector<int>& leader) {
+  const std::vector<int> column = std::move(samples.column), row = std::move(samples.row);
+  const std::vector<double> value = std::move(samples.value);
+  samples.row = {0};
+  samples.column.clear();
+  samples.value.clear();
+  for (int s = 0; s < samples.size(); ++s) {
+    for (int e = row[s]; e < row[s + 1]; ++e)
+      for (int c = column[e];; c = leader[c]) {
+        samples.column.push_back(c);
+        samples.value.push_back(value[e]);
+        if (c == leader[c]) break;
+      }
+    samples.row.push_back(int(samples.column.size()));
+  }
+  return samples;
+}
+
 // The paper's formulation: origins, projection, control points as unknowns.
 template <int Dim>
 void project_controls(Discretization<Dim>& d) {
   d.origins = timed(d.cost, "origins", [&] {
     return choose_origins(d.options.origins, d.weights, d.quadrature.weight, d.samples);
   });
-  d.projection = timed(d.cost, "projection",
-                       [&] { return project(d.samples, d.origins, d.options.projection); });
+  const auto leader = d.options.near_differences && d.followers.empty() ? leaders_of_near_controls(d.boundary) : std::vector<int>();
+  d.projection = timed(d.cost, "projection", [&] {
+    return project(leader.empty() ? d.samples : by_differences(d.samples, leader), d.origins, d.options.projection);
+  });
+  if (!leader.empty()) {
+    d.unknowns = difference_unknowns(d.boundary, leader);
+    return;
+  }
   if (d.followers.empty()) {
     d.unknowns = control_point_unknowns(d.boundary);
     return;

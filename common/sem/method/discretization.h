@@ -46,6 +46,7 @@ struct MethodOptions {
   std::vector<int> condition = {};  ///< #parts: as find_joint_patches has it; empty: all are held and loaded alike
   OwnPressure own_pressure = OwnPressure::automatic;
   OriginChoice origins = OriginChoice::shared_parts;
+  bool near_differences = false;  ///< projected: control points across a sliver by differences (difference_unknowns)
   ProjectionOptions projection;
   int kept_columns = 0;     ///< draft eq. 14: columns of B kept per point, 0: all
   bool renormalise = true;  ///< after pruning

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "sem/method/boundary.h"
 
@@ -23,6 +24,19 @@ struct Unknowns {
 /// The paper's formulation: z are the control points, S is the identity and is not stored.
 template <int Dim>
 Unknowns<Dim> control_point_unknowns(const Boundary<Dim>& boundary);
+
+/// Every control point's leader. In clusters of control points that are within 1e-5 of the body's size but not all the
+/// same, as across a sliver, the first of each part leads the part's others, the first of all leads these; else each
+/// leads itself. Empty if all do.
+template <int Dim>
+std::vector<int> leaders_of_near_controls(const Boundary<Dim>& boundary);
+
+/// The paper's formulation where control points are that near: z are the control points that lead themselves and
+/// the others' differences from their leaders. Across a sliver B on control points has entries of 1 / thickness that cancel in what
+/// moves both sides together, down to the rounding of a stiffness beside which inertia vanishes; in these unknowns
+/// the large entries are those of the differences alone.
+template <int Dim>
+Unknowns<Dim> difference_unknowns(const Boundary<Dim>& boundary, const std::vector<int>& leader);
 
 /// p = S z, Dim by #control points; z has Dim * n entries.
 template <int Dim>

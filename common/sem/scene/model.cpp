@@ -63,6 +63,7 @@ class Builder {
     MethodOptions options = scene_.method;
     options.stiffness = part_stiffness();
     options.condition = boundary_conditions();
+    options.near_differences = scene_.pins.empty();  // pins take control points out of the system one by one
     model_->discretization = discretize<Dim>(solids, options, trims);
     model_->cost = model_->discretization.cost;
   }
@@ -160,10 +161,21 @@ class Builder {
       model_->stability = stability = mass_matrix(mismatch, d.samples.weight, plan);
       stability *= model_->stability_stiffness;
     }
-    model_->energy = std::make_unique<InternalEnergy<Dim>>(d.interior, d.quadrature.weight, model_->materials, stability,
-                                                           std::move(clamps), std::move(pressure), plan);
-    system.potential = model_->energy.get();
     system.rest = affine_field<Dim>(d.unknowns, Mat<Dim>::Identity(), Vec<Dim>::Zero());
+    model_->energy = std::make_unique<InternalEnergy<Dim>>(d.interior, d.quadrature.weight, model_->materials, stability,
+                                                           std::move(clamps), std::move(pressure), plan, unresisted(stability));
+    system.potential = model_->energy.get();
+  }
+
+  // The rest shape is among them unless the fit loses it (the draft's), beyond rounding.
+  Unresisted unresisted(const SymmetricMatrix& stability) const {
+    Unresisted fields{model_->discretization.unknowns.one, {}};
+    if (condensed()) return fields;
+    const VectorXd &rest = model_->system.rest, force = stability * rest;
+    VectorXd terms = rest;
+    stability.absolute_product(rest, terms);
+    if (force.norm() <= 1e-10 * terms.norm()) fields.rest = rest;
+    return fields;
   }
 
   // The order in which the unknowns are eliminated; those that pins hold in all components never are.
