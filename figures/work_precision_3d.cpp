@@ -92,7 +92,7 @@ Figure work_precision_3d() {
                 "solution: the condensed formulation costs less than quadratic tetrahedra at "
                 "errors of 2 %, as much "
                 "at half a percent. Black: given from another machine, for comparison",
-                5,
+                7,
                 3.6,
                 compute,
                 draw};
