@@ -41,13 +41,7 @@ void add_scaled_product(double factor, double* C, int ld_c, const double* A, int
 }
 
 void add_product(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int m, int n, int k) {
-  auto target = view(C, m, n, ld_c);
-  const auto left = view(A, k, m, ld_a), right = view(B, k, n, ld_b);
-  if (n <= narrow) {
-    for (int j = 0; j < n; ++j) target.col(j).noalias() += left.transpose() * right.col(j);
-    return;
-  }
-  target.noalias() += left.transpose() * right;
+  view(C, m, n, ld_c).noalias() += view(A, k, m, ld_a).transpose() * view(B, k, n, ld_b);
 }
 
 void add_lower_product(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int n, int k) {
