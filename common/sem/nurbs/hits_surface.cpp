@@ -6,6 +6,7 @@
 #include "sem/nurbs/hits.h"
 #include "sem/nurbs/kernels.h"
 #include "sem/nurbs/search_counts.h"
+#include "sem/nurbs/surface_cells.h"
 
 // Two functions f, g = w n.(P - origin), n perpendicular to the line, vanish
 // together where the line meets the surface. A patch is split until its
@@ -60,8 +61,9 @@ class SurfaceHits {
 
   void run() {
     scratch_.candidates.clear();
-    for (const auto& piece : part_.pieces)
-      if (!misses_box(piece.box)) search(piece);
+    for (size_t k = 0; k < part_.pieces.size(); ++k)
+      if (!misses_box(part_.pieces[k].box) && !misses_cell(part_.cells->cells[k]))
+        search(part_.pieces[k]);
   }
 
  private:
@@ -70,6 +72,16 @@ class SurfaceHits {
     const Vec<3> half = 0.5 * (box.upper - box.lower);
     for (int k = 0; k < 2; ++k)
       if (std::abs(normals_.col(k).dot(centre)) > normals_.col(k).cwiseAbs().dot(half) + tolerance_)
+        return true;
+    return false;
+  }
+
+  // The same for the box along the piece's tangents.
+  bool misses_cell(const detail::SurfaceCell& cell) const {
+    const Vec<3> centre = cell.centre - (line_.origin - part_.cells->origin);
+    for (int k = 0; k < 2; ++k)
+      if (std::abs(normals_.col(k).dot(centre)) >
+          (cell.axes * normals_.col(k)).cwiseAbs().dot(cell.half) + tolerance_)
         return true;
     return false;
   }
@@ -92,7 +104,7 @@ class SurfaceHits {
       const Vec<3> X = piece.points.col(i) - line_.origin;
       for (int k = 0; k < 2; ++k) whole[i][k] = piece.weights[i] * normals_.col(k).dot(X);
     }
-    find_collapsed_edges();
+    edges_known_ = false;
     scratch_.patches[0] = {{0, 0}, {1, 1}, {0, 0}};
     n_patches_ = 0;
     bool along = false;
@@ -117,7 +129,8 @@ class SurfaceHits {
     if (along) add_edges();
   }
 
-  // Edges of the piece that are one point (poles): all of such an edge is a root if the point is on the line.
+  // Edges of the piece that are one point (poles): all of such an edge is a root if the point is on
+  // the line.
   void find_collapsed_edges() {
     const int n_u = piece_->degree[0] + 1;
     const int corner[2] = {n_ - n_u, n_u - 1};  // first point of the far edge of each axis, 1 and 0
@@ -126,14 +139,20 @@ class SurfaceHits {
         const int first = side == 0 ? 0 : corner[1 - axis], step = axis == 0 ? n_u : 1;
         bool collapsed = true;
         for (int k = 1; k <= piece_->degree[1 - axis]; ++k)
-          collapsed &= (piece_->points.col(first + k * step) - piece_->points.col(first)).cwiseAbs().maxCoeff() <= tolerance_;
+          collapsed &= (piece_->points.col(first + k * step) - piece_->points.col(first))
+                           .cwiseAbs()
+                           .maxCoeff() <= tolerance_;
         collapsed_[axis][side] = collapsed;
       }
   }
 
-  bool touches_collapsed_edge(const Patch& patch) const {
+  bool touches_collapsed_edge(const Patch& patch) {
+    if (!edges_known_) find_collapsed_edges();
+    edges_known_ = true;
     for (int axis = 0; axis < 2; ++axis)
-      if ((collapsed_[axis][0] && patch.lower[axis] == 0) || (collapsed_[axis][1] && patch.upper[axis] == 1)) return true;
+      if ((collapsed_[axis][0] && patch.lower[axis] == 0) ||
+          (collapsed_[axis][1] && patch.upper[axis] == 1))
+        return true;
     return false;
   }
 
@@ -198,8 +217,9 @@ class SurfaceHits {
     }
     // The combination with the least gradient, for patches near a tangency.
     const Mat<2> M = J * J.transpose();
-    const double angle = 0.5 * std::atan2(2 * M(0, 1), M(0, 0) - M(1, 1));
-    if (excluded(c, -std::sin(angle), std::cos(angle))) return true;
+    const double half = (M(0, 0) - M(1, 1)) / 2, both = std::hypot(half, M(0, 1)) + std::abs(half);
+    if (both > 0 && (half > 0 ? excluded(c, -M(0, 1), both) : excluded(c, -both, M(0, 1))))
+      return true;
     const int limit = n_patches_ > max_patches ? coarse_halvings : max_halvings;
     if (std::min(patch.halvings[0], patch.halvings[1]) < limit &&
         std::max(patch.halvings[0], patch.halvings[1]) < max_halvings)
@@ -316,8 +336,9 @@ class SurfaceHits {
     return scratch_.whole.data();
   }
 
-  // Adds a hit at local parameters if it is on the line to rounding, also of the parameters: with very
-  // unequal weights a surface moves by more than positions are rounded to from one double to the next.
+  // Adds a hit at local parameters if it is on the line to rounding, also of the parameters: with
+  // very unequal weights a surface moves by more than positions are rounded to from one double to
+  // the next.
   bool add(const Vec<2>& s, double reach) {
     const Vec<3> X = point(*piece_, Param<2>(s)) - line_.origin;
     Candidate candidate;
@@ -342,7 +363,7 @@ class SurfaceHits {
     return true;
   }
 
-  int axis_to_split(const Patch& patch, const Vec<2>* c) const {
+  int axis_to_split(const Patch& patch, const Vec<2>* c) {
     double variation[2] = {0, 0};
     const int n_u = piece_->degree[0] + 1;
     for (int i = 0; i < n_; ++i)
@@ -353,9 +374,9 @@ class SurfaceHits {
           variation[axis] =
               std::max(variation[axis], piece_->degree[axis] * std::abs(c[next][k] - c[i][k]));
       }
-    // Not the longest way in the plane alone: keep patches of bounded shape. At a pole that would split the edge
-    // that is one point for ever.
-    if (!touches_collapsed_edge(patch) && std::abs(patch.halvings[0] - patch.halvings[1]) > 3)
+    // Not the longest way in the plane alone: keep patches of bounded shape. At a pole that would
+    // split the edge that is one point for ever.
+    if (std::abs(patch.halvings[0] - patch.halvings[1]) > 3 && !touches_collapsed_edge(patch))
       return patch.halvings[0] < patch.halvings[1] ? 0 : 1;
     return variation[0] >= variation[1] ? 0 : 1;
   }
@@ -367,7 +388,7 @@ class SurfaceHits {
   double tolerance_ = 0, f_tolerance_ = 0;
   const BezierPiece<2, 3>* piece_ = nullptr;
   int n_ = 0, n_patches_ = 0;
-  bool collapsed_[2][2] = {};  // [axis][side]
+  bool edges_known_ = false, collapsed_[2][2] = {};  // of the piece; [axis][side]
 };
 
 // The same point found from neighbouring patches.
