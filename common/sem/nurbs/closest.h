@@ -19,7 +19,7 @@ struct ClosestPoint {
 /// start value: no point of the part is closer by more than 1e-14 of
 /// (distance + size of the part). Among points as close as that: 2D, the one
 /// of smallest parameter; 3D, the same one for the same input. 3D gives up
-/// the certificate, not the answer, after 50000 patches of a piece, which
+/// the certificate, not the answer, after 50000 patches of a cell (a piece or a part of one), which
 /// only a whole curve of equally close points can take. Of a trimmed part: the closest point of its region.
 ///
 /// If no point is within `cutoff`, the distance may be returned as infinity,

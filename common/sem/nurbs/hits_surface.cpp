@@ -5,6 +5,7 @@
 #include "sem/nurbs/bernstein.h"
 #include "sem/nurbs/hits.h"
 #include "sem/nurbs/kernels.h"
+#include "sem/nurbs/merge_hits.h"
 #include "sem/nurbs/search_counts.h"
 #include "sem/nurbs/surface_cells.h"
 
@@ -18,6 +19,8 @@
 namespace sem {
 namespace {
 
+using detail::Candidate;
+
 constexpr int max_halvings = 27;    // of each axis, for tangencies
 constexpr int coarse_halvings = 9;  // once max_patches are exceeded: a line along the surface
 constexpr int max_patches = 8000;   // per piece
@@ -25,11 +28,6 @@ constexpr int max_patches = 8000;   // per piece
 struct Patch {
   double lower[2], upper[2];  // in [0, 1]^2 of the piece
   int halvings[2];
-};
-
-struct Candidate {
-  Hit<3> hit;
-  double reach;  // size of the patch a degenerate hit stands for, 0 if it is simple
 };
 
 // Kept between calls so that nothing is allocated in the steady state.
@@ -391,53 +389,6 @@ class SurfaceHits {
   bool edges_known_ = false, collapsed_[2][2] = {};  // of the piece; [axis][side]
 };
 
-// The same point found from neighbouring patches.
-bool same_hit(const Hit<3>& a, const Hit<3>& b, const Vec<2>& domain_size, double t_tolerance) {
-  return std::abs(a.t - b.t) <= t_tolerance &&
-         ((a.u - b.u).cwiseAbs().array() <= 1e-7 * domain_size.array()).all();
-}
-
-// Appends the simple hits once each; degenerate ones in clusters: a tangency
-// gives one hit, a stretch along the line gives its two ends.
-void append_merged(const PreparedNurbs<2, 3>& part, double speed, std::vector<Candidate>& found,
-                   std::vector<Hit<3>>& out) {
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
-    return a.hit.t != b.hit.t ? a.hit.t < b.hit.t : a.hit.u[0] < b.hit.u[0];
-  });
-  const double size = part.box.diagonal();
-  Vec<2> domain_size;
-  for (int a = 0; a < 2; ++a)
-    domain_size[a] = domain(part.nurbs, a).upper - domain(part.nurbs, a).lower;
-  const size_t first_out = out.size();
-  const auto append = [&](const Hit<3>& hit) {
-    for (size_t k = out.size(); k-- > first_out;)
-      if (same_hit(out[k], hit, domain_size, 1e-9 * size / speed)) return;
-    out.push_back(hit);
-  };
-  for (const auto& candidate : found)
-    if (candidate.reach == 0) append(candidate.hit);
-  const auto degenerate = [](const Candidate& c) { return c.reach > 0; };
-  for (auto first = std::find_if(found.begin(), found.end(), degenerate); first != found.end();) {
-    auto last = first, next = first;
-    while ((next = std::find_if(next + 1, found.end(), degenerate)) != found.end() &&
-           (next->hit.t - last->hit.t) * speed <= 2.5 * std::max(next->reach, last->reach))
-      last = next;
-    Hit<3> start = first->hit, end = last->hit;
-    if ((end.t - start.t) * speed > 1e-5 * size) {
-      start.along = end.along = true;
-      append(start);
-      append(end);
-    } else {
-      const bool near_simple =
-          std::any_of(out.begin() + first_out, out.end(), [&](const auto& hit) {
-            return same_hit(hit, start, 10 * domain_size, 1e-5 * size / speed);
-          });
-      if (!near_simple) append((first + (last - first) / 2)->hit);
-    }
-    first = next;
-  }
-}
-
 }  // namespace
 
 template <>
@@ -446,7 +397,7 @@ void append_hits<3>(const PreparedNurbs<2, 3>& part, const Line<3>& line, double
   thread_local Scratch scratch;
   SurfaceHits(part, line, scratch).run();
   const size_t first = out.size();
-  append_merged(part, line.direction.norm(), scratch.candidates, out);
+  detail::append_merged(part, line.direction.norm(), scratch.candidates, out);
   out.erase(std::remove_if(out.begin() + first, out.end(),
                            [&](const Hit<3>& hit) { return !(hit.t >= t_min && hit.t <= t_max); }),
             out.end());
