@@ -315,6 +315,20 @@ TEST_CASE("a step over a barrier is retried in substeps") {
   CHECK(state.step == 1);
 }
 
+TEST_CASE("a motion as small as a hundred roundings of its forces dies down, it is no failure") {
+  constexpr double stiffness = 1e5, noise = 3 * std::numeric_limits<double>::epsilon() * stiffness;
+  Scalar spring;
+  spring.V = [](double x) { return stiffness / 2 * (x - 1) * (x - 1); };
+  spring.dV = [](double x) { return stiffness * (x - 1) + std::copysign(noise, std::sin(1e18 * x)); };
+  spring.ddV = [](double) { return stiffness; };
+  const System system = make_system(spring, VectorXd::Ones(1));
+  TimeStepper stepper(system, 0.1, Integrator::implicit_euler);
+  State state = at_rest(system);
+  state.z(0) += 1e-13;
+  for (int k = 0; k < 100; ++k) REQUIRE(stepper.step(state).status == Status::converged);
+  CHECK(std::abs(state.z(0) - 1) < 1e-14);
+}
+
 TEST_CASE("a step that cannot succeed has a status and leaves the state alone") {
   Scalar wall;  // free flight into a region where the energy is not finite
   wall.V = [](double x) { return x < 1 ? 0 : infinity; };

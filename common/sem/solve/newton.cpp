@@ -87,11 +87,13 @@ Status Newton::direction(double inertia) {
 }
 
 // True if r is as small as the rounding of forces that are sums of H_ij z_j and M_ij (u - drift)_j, and small
-// beside the largest forces or, where nothing is loaded, these are no more than that themselves.
+// beside the largest forces or, where nothing is loaded, these are no more than that themselves or a body's that
+// moves: what its motion loses then is as small as the rounding of its place.
 bool Newton::is_rounding(const IncrementProblem& problem, const Eigen::VectorXd& u, double norm, double largest_force) {
-  const auto loaded = [&](int i) { return problem.load(i) != 0; };
+  const bool loaded =
+      std::any_of(system_.free.begin(), system_.free.end(), [&](int i) { return problem.load(i) != 0; });
   const bool small = norm <= small_residual * largest_force;
-  if (!small && std::any_of(system_.free.begin(), system_.free.end(), loaded)) return false;
+  if (loaded && !small) return false;
   hessian_.absolute_product(z_, work_);
   if (problem.inertia > 0) {
     step_ = u - problem.drift;
@@ -101,7 +103,7 @@ bool Newton::is_rounding(const IncrementProblem& problem, const Eigen::VectorXd&
   double sum = 0;
   for (const int i : system_.free) sum += work_(i) * work_(i);
   const double rounding = rounding_margin * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
-  return norm <= rounding && (small || largest_force <= rounding);
+  return norm <= rounding && (small || problem.inertia > 0 || largest_force <= rounding);
 }
 
 // Moves the pinned entries to their prescribed values and the free ones along

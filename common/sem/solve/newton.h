@@ -50,7 +50,7 @@ class Newton {
   /// projected one plus a multiple of its diagonal. Converged: residual <=
   /// tolerance, or r is down to the rounding of the internal forces
   /// (and below 1e-4 of the largest forces on the way; or nothing
-  /// is loaded and these are rounding too). On failure
+  /// is loaded, and there is inertia or these are rounding too). On failure
   /// u is the last iterate. Never returns a non-finite u.
   NewtonReport minimize(const IncrementProblem& problem, const NewtonOptions& options,
                         Eigen::VectorXd& u);
