@@ -1,6 +1,7 @@
 // Whole bodies through the whole pipeline, in both dimensions.
 #include "bodies.h"
 #include "dims.h"
+#include "sem/method/least_squares.h"
 #include "sem/scene/accuracy.h"
 #include "sem/scene/analysis.h"
 #include "sem/scene/monitor.h"
@@ -189,6 +190,37 @@ TEST_CASE_TEMPLATE("accuracy report: the same numbers for a model a million size
   CHECK(near.second_moment_error < 1e-2);
   CHECK(far.volume_error == doctest::Approx(near.volume_error).epsilon(1e-6));
   CHECK(std::abs(far.second_moment_error - near.second_moment_error) < 1e-8);
+}
+
+TEST_CASE_TEMPLATE("folds: a reflected body is folded, a turned one is not", T, D2, D3) {
+  constexpr int Dim = T::value;
+  for (const Formulation formulation : {Formulation::projected, Formulation::condensed}) {
+    auto scene = test::box_scene<Dim>(MaterialModel::stvk, 2);
+    scene.method.formulation = formulation;
+    const auto model = build_model(scene, "");
+    Mat<Dim> reflected = Mat<Dim>::Identity(), turned = reflected;
+    reflected(0, 0) = turned(0, 0) = turned(1, 1) = -1;
+    const auto share = [&](const Mat<Dim>& F) {
+      return folded_share(*model, affine_field<Dim>(model->discretization.unknowns, F, Vec<Dim>::Constant(0.3)));
+    };
+    CHECK(share(Mat<Dim>::Identity()) == 0);
+    CHECK(share(turned) == 0);
+    CHECK(share(reflected) == doctest::Approx(1));
+  }
+}
+
+TEST_CASE_TEMPLATE("folds: half of a body whose height becomes the square of its distance from the middle", T, D2, D3) {
+  constexpr int Dim = T::value;
+  auto scene = test::box_scene<Dim>(MaterialModel::stvk, 2);
+  scene.method.formulation = Formulation::condensed;
+  scene.method.projection.degree = 2;
+  const auto model = build_model(scene, "");
+  const auto& d = model->discretization;
+  Points<Dim> x = d.quadrature.position;
+  x.row(1) = (x.row(1).array() - 0.5).square();
+  const Points<Dim> z = least_squares(dense_value(d.interior), x.transpose()).transpose();
+  REQUIRE((evaluate(d.interior, VectorXd(z.reshaped())) - x).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK(folded_share(*model, z.reshaped()) == doctest::Approx(0.5));
 }
 
 TEST_CASE_TEMPLATE("static: a body turned by its pin sags as the one that is not turned does under turned gravity", T, D2, D3) {

@@ -106,6 +106,31 @@ Accuracy<Dim> measure_accuracy(const Model<Dim>& model) {
 }
 
 template <int Dim>
+double folded_share(const Model<Dim>& model, const Eigen::VectorXd& z) {
+  const auto& d = model.discretization;
+  const Points<Dim>& X = d.quadrature.position;
+  std::vector<Mat<Dim>> F(size_t(d.quadrature.size()));
+  if (d.options.formulation == Formulation::condensed) {
+    const Points<Dim> y = coefficients(d.interior, z);
+    for (const auto& block : d.interior.blocks)
+      for (size_t k = 0; k < block.points.size(); ++k)
+        F[size_t(block.points[k])] = deformation_gradient(block, int(k), y);
+  } else {
+    const double step = 1e-7 * d.boundary.box.diagonal();
+    const Points<Dim> x = evaluate(d.interior, z);
+    for (int a = 0; a < Dim; ++a) {
+      const Points<Dim> ahead = X.colwise() + step * Vec<Dim>::Unit(a);
+      const Points<Dim> change = evaluate(map_at(d, ahead, false), z) - x;
+      for (int k = 0; k < X.cols(); ++k) F[size_t(k)].col(a) = change.col(k) / step;
+    }
+  }
+  double folded = 0;
+  for (int k = 0; k < X.cols(); ++k)
+    if (!(F[size_t(k)].determinant() > 0)) folded += d.quadrature.weight[k];
+  return folded / d.quadrature.weight.sum();
+}
+
+template <int Dim>
 std::vector<StageError> stage_errors(const Discretization<Dim>& d, const Accuracy<Dim>& a) {
   const std::vector<StageError> all = {
       {"loops", a.gap_share, "share of the inside that ends at closed gaps"},
@@ -198,6 +223,8 @@ template double test_energy<2>(const Model<2>&, const Quadrature<2>&);
 template double test_energy<3>(const Model<3>&, const Quadrature<3>&);
 template Accuracy<2> measure_accuracy<2>(const Model<2>&);
 template Accuracy<3> measure_accuracy<3>(const Model<3>&);
+template double folded_share<2>(const Model<2>&, const Eigen::VectorXd&);
+template double folded_share<3>(const Model<3>&, const Eigen::VectorXd&);
 template std::vector<StageError> stage_errors<2>(const Discretization<2>&, const Accuracy<2>&);
 template std::vector<StageError> stage_errors<3>(const Discretization<3>&, const Accuracy<3>&);
 template nlohmann::ordered_json to_json<2>(const Accuracy<2>&);

@@ -47,6 +47,11 @@ double test_energy(const Model<Dim>& model, const Quadrature<Dim>& rule);
 template <int Dim>
 Accuracy<Dim> measure_accuracy(const Model<Dim>& model);
 
+/// Volume share of the quadrature points where the map turns over in the state z: det dx/dX <= 0 of x(X) itself. The
+/// paper's F leaves the weights' gradients out and does not see it; there dx/dX comes from differences of x.
+template <int Dim>
+double folded_share(const Model<Dim>& model, const Eigen::VectorXd& z);
+
 /// One line for each stage that has run and can err; stages that are exact or that nothing measures have none.
 template <int Dim>
 std::vector<StageError> stage_errors(const Discretization<Dim>& discretization, const Accuracy<Dim>& accuracy);

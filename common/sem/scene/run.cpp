@@ -82,6 +82,11 @@ class Run {
                     refined_->reached ? "met" : "NOT met", refined_->expected());
       result_.message += goal;
     }
+    if (scene_.analysis.kind != AnalysisKind::modes) {
+      const Stopwatch watch;
+      folded_share_ = folded_share(*model_, state_.z);
+      folds_seconds_ = watch.seconds();
+    }
     write_results();  // whatever happens to the estimate
     if (!refined_ && scene_.output.error_estimate && result_.ok) {
       progress(1, "estimating the error");
@@ -203,6 +208,7 @@ class Run {
   std::vector<StageCost> all_cost() const {
     std::vector<StageCost> cost = model_->cost;
     cost.push_back({"analysis", report_.seconds});
+    if (scene_.analysis.kind != AnalysisKind::modes) cost.push_back({"folds", folds_seconds_});
     cost.push_back({"frames", output_seconds_});
     if (refined_ || scene_.output.error_estimate) cost.push_back({"error estimate", estimate_seconds_});
     return cost;
@@ -211,6 +217,8 @@ class Run {
   std::vector<StageError> all_errors() const {
     auto errors = stage_errors(model_->discretization, accuracy_);
     errors.push_back({"analysis", report_.residual, "worst residual, by the forces"});
+    if (scene_.analysis.kind != AnalysisKind::modes)
+      errors.push_back({"folds", folded_share_, "share of the inside that is turned inside out"});
     if (!estimate_.columns.empty())
       errors.push_back({"error estimate", relative_error(scene_, estimate_), "largest estimated error of a probe or frequency, by its value"});
     return errors;
@@ -235,8 +243,10 @@ class Run {
     json["stages"] = stages_json(all_cost(), all_errors());
     json["solver"] = solver_json(report_);
     json["accuracy"] = to_json(accuracy_);
-    if (scene_.analysis.kind != AnalysisKind::modes)
+    if (scene_.analysis.kind != AnalysisKind::modes) {
+      json["accuracy"]["folded_share"] = folded_share_;
       json["accuracy"]["largest_boundary_mismatch"] = column_maximum(*history_, "boundary_mismatch");
+    }
     if (scene_.analysis.kind == AnalysisKind::dynamics) json["accuracy"]["energy"] = energy_json(*history_);
     if (!estimate_.columns.empty())
       json["accuracy"]["solution"] = estimate_json(estimate_, monitor_->probe_truths());
@@ -297,6 +307,9 @@ class Run {
       add("%s off by %.2g (relative), second moments by %.2g; ", DimTraits<Dim>::volume_name,
           accuracy_.volume_error, accuracy_.second_moment_error);
     add("uncovered %.2g\n", accuracy_.uncovered_share);
+    if (folded_share_ > 0)
+      add("warning:  the map is folded at the end: %.2g of the %s is turned inside out\n", folded_share_,
+          DimTraits<Dim>::volume_name);
     const size_t n_probes = scene_.analysis.kind == AnalysisKind::modes ? 0 : monitor_->probe_columns().size();
     for (size_t probe = 0; probe < n_probes; ++probe) {
       const size_t c = history_->columns().size() - n_probes + probe;
@@ -334,7 +347,7 @@ class Run {
   State state_;
   RunResult result_;
   const RefinedScene<Dim>* refined_;
-  double output_seconds_ = 0, estimate_seconds_ = 0;
+  double output_seconds_ = 0, estimate_seconds_ = 0, folds_seconds_ = 0, folded_share_ = 0;
 };
 
 }  // namespace
