@@ -185,7 +185,9 @@ Result stiffness_ratio(Formulation formulation, double ratio) {
     Scene<Dim> scene = scene_of(body, formulation);
     scene.solids[0].parts[1].material = scene.solids[0].material;
     scene.solids[0].parts[1].material->youngs_modulus *= r;
-    return check_hanging(scene, body, Bounds{}, checks);
+    Bounds bounds;
+    bounds.balance = std::max(bounds.balance, 1e-13 * r);  // forces are sums of terms r times their size
+    return check_hanging(scene, body, bounds, checks);
   };
   Checks checks, ordinary;
   Eigen::Matrix3d A;

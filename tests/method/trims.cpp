@@ -6,6 +6,7 @@
 #include "sem/base/error.h"
 #include "sem/method/boundary_integrals.h"
 #include "sem/method/distance_weights.h"
+#include "sem/method/followers.h"
 #include "sem/method/quadrature.h"
 #include "sem/method/samples.h"
 #include "sem/nurbs/closest.h"
@@ -342,4 +343,23 @@ TEST_CASE("trims: bad loops are refused by name") {
   auto wrong = test::circle({0.5, 0.5}, 0.2);
   wrong[3].weights[1] = -1;
   CHECK(message({wrong}).find("parts[2].trims[0].curves[3].weights[1]") != std::string::npos);
+}
+
+TEST_CASE("control points that show at a pole alone follow, others do not") {
+  // A disc of an arc over its chord, whose ends are one point each; the middle control points weigh `w`.
+  const auto followers = [](double w, double width_of_end) {
+    Nurbs<2, 3> cap;
+    cap.degree = {2, 1};
+    cap.knots = {std::vector<double>{0, 0, 0, 1, 1, 1}, {0, 0, 1, 1}};
+    cap.control_points.resize(3, 6);
+    cap.control_points << 0, 0.5, 1, 0, 0.5, 1, 0, 0, 0, width_of_end, 1, width_of_end, 0, 0, 0, 0, 0, 0;
+    cap.weights = Eigen::VectorXd{{1, w, 1, 1, w, 1}};
+    const auto boundary = make_boundary<3>({{cap}});
+    return find_followers(boundary, sample_boundary(boundary, {}));
+  };
+  CHECK(followers(1e3, 0).empty());
+  CHECK(followers(1e6, 0.1).empty());
+  const auto found = followers(1e6, 0);
+  CHECK(found.control == std::vector<int>{0, 2, 3, 5});
+  for (size_t f = 0; f < found.control.size(); ++f) CHECK(found.share[f].sum() == doctest::Approx(1));
 }

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double least_share =
     1e-6;  // of the square of a basis function that its samples have to add
+constexpr double least_mean_square = 1e-8;  // of a basis function, by that of n equal ones
 
 // Scalar J^T diag(a) J of one part, over its own control points.
 template <int Dim>
@@ -23,6 +24,23 @@ Eigen::MatrixXd gram_of_part(const Boundary<Dim>& boundary, const Samples<Dim>& 
         G(samples.column[e] - first, samples.column[f] - first) +=
             samples.weight[s] * samples.value[e] * samples.value[f];
   return G;
+}
+
+// Marks the control points of an untrimmed part that show at points without area only.
+template <int Dim>
+void mark_unseen(const Boundary<Dim>& boundary, const Samples<Dim>& samples, int part, std::vector<bool>& unseen) {
+  const int first = boundary.first_control[part], n = boundary.first_control[part + 1] - first;
+  Eigen::VectorXd square = Eigen::VectorXd::Zero(n), at_points = square;
+  double total = 0;
+  for (int s = samples.first[part]; s < samples.first[part + 1]; ++s) total += samples.weight[s];
+  for (int s = samples.first[part]; s < samples.first[part + 1]; ++s)
+    for (int e = samples.row[s]; e < samples.row[s + 1]; ++e) {
+      const int c = samples.column[e] - first;
+      square[c] += samples.weight[s] / total * samples.value[e] * samples.value[e];
+      if (samples.weight[s] <= 1e-12 * total) at_points[c] = std::max(at_points[c], samples.value[e]);
+    }
+  for (int c = 0; c < n; ++c)
+    unseen[first + c] = at_points[c] > 0.5 && square[c] < least_mean_square / (double(n) * n);
 }
 
 // Diagonal that the part would have without trims.
@@ -57,7 +75,10 @@ Followers<Dim> find_followers(const Boundary<Dim>& boundary, const Samples<Dim>&
   Followers<Dim> followers;
   std::vector<bool> follows(boundary.n_controls(), false);
   for (int i = 0; i < boundary.n_parts(); ++i) {
-    if (!boundary.parts[i].region) continue;
+    if (!boundary.parts[i].region) {
+      mark_unseen(boundary, samples, i, follows);
+      continue;
+    }
     const Eigen::VectorXd scale =
         untrimmed_diagonal(boundary, i).cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const int first = boundary.first_control[i];

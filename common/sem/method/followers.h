@@ -1,5 +1,5 @@
 #pragma once
-// Control points of trimmed parts that the samples do not determine: they follow the others.
+// Control points that the samples do not determine: they follow the others.
 
 #include <algorithm>
 
@@ -10,14 +10,17 @@ namespace sem {
 
 /// Which control points follow, and whom.
 ///
-/// Who: control points whose basis functions, on what their part is trimmed to, are combinations of
+/// Who, on a trimmed part: control points whose basis functions, on what their part is trimmed to, are combinations of
 /// those of the part's other control points: pivoted Cholesky of sum_s a_s J_s^T J_s over the
 /// part's samples, scaled to the diagonal that the untrimmed part has; a control point follows when
-/// the square of what it adds is below 1e-6 of that. Those without any sample are among them. Whom:
+/// the square of what it adds is below 1e-6 of that. Those without any sample are among them. On
+/// other parts: control points of an edge that is one point, if beside weights a million times theirs
+/// nothing but this point shows them: the mean square of the basis function over the part is below
+/// 1e-8 of 1/n^2, what n equal ones would have. Whom:
 /// p_j = the affine map that fits the part's other control points best (least squares, of least
 /// norm where they lie on a plane), at rest p_j's place; the solid's other control points where the
 /// part's own lie on a plane or line that p_j is not on. So affine motions are exact, and a part
-/// that bends leaves its followers on its mean plane: nothing of the trimmed surface depends on
+/// that bends leaves its followers on its mean plane: nothing of the surface depends on
 /// them noticeably.
 template <int Dim>
 struct Followers {
@@ -29,7 +32,6 @@ struct Followers {
   bool follows(int c) const { return std::binary_search(control.begin(), control.end(), c); }
 };
 
-/// None without trims.
 template <int Dim>
 Followers<Dim> find_followers(const Boundary<Dim>& boundary, const Samples<Dim>& samples);
 

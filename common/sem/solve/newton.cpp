@@ -14,7 +14,7 @@ constexpr int max_backtracks = 40;  // 2^-40: the direction is useless
 constexpr double energy_noise =
     1e-9;  // a predicted decrease below this share of its terms may be rounding
 // |r| below this many roundings of the forces is zero, if it is small at all.
-constexpr double rounding_margin = 32, small_residual = 1e-6;
+constexpr double rounding_margin = 32, small_residual = 1e-4;
 constexpr double first_shift = 1e-3, last_shift = 10;  // shares of the diagonal
 }  // namespace
 
