@@ -22,6 +22,7 @@ const std::vector<Figure>& all_figures() {
                                               patch_test(),
                                               deflection_parts(),
                                               condensed_convergence(),
+                                              error_estimates(),
                                               manufactured(),
                                               work_precision(),
                                               stiffness_sparsity(),

@@ -62,6 +62,7 @@ Figure quadrature_work();
 Figure patch_test();
 Figure deflection_parts();
 Figure condensed_convergence();
+Figure error_estimates();
 Figure manufactured();
 Figure work_precision();
 Figure work_precision_3d();
