@@ -218,6 +218,10 @@ std::vector<BodyCase> thin_cases() {
       if (eps < 1e-3) cases[k].shape.connected = false;
     }
   }
+  for (auto& one : cases) {
+    one.fast = true;
+    one.fast_3d = one.name.starts_with("sliver");
+  }
   return cases;
 }
 
@@ -257,6 +261,7 @@ std::vector<BodyCase> curve_cases() {
   std::vector<BodyCase> cases;
   for (const double w : {1e-6, 1e-3, 1e3, 1e6}) {
     cases.push_back({"weight " + power(w) + " in the middle", conic_segment(w)});
+    cases.back().fast = true;
     cases.back().bounds.volume = 1e-3;  // in 3D rays are not split where the surface turns back
     cases.back().bounds.balance = 1e-4;
     if (w > 1e-6) continue;
