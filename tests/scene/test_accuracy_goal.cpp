@@ -67,6 +67,18 @@ TEST_CASE("a goal out of reach within the limit of unknowns says so and keeps th
   CHECK(refined.expected() < refined.rounds.front().expected);
 }
 
+TEST_CASE("an estimate without one of the refinements is not complete") {
+  ErrorEstimate estimate;
+  estimate.variations.resize(2);
+  estimate.variations[0].setting = "twice the clamps' penalty";
+  estimate.variations[0].failure = "singular";
+  estimate.variations[1].setting = "every part halved";
+  estimate.variations[1].refinement = Refinement::parts;
+  CHECK(estimate.complete());
+  estimate.variations[1].failure = "singular";
+  CHECK_FALSE(estimate.complete());
+}
+
 TEST_CASE("the halves of a part answer to its name") {
   Scene<2> scene = coarse_beam();
   REQUIRE(refine(scene, Refinement::parts));

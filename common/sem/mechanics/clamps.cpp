@@ -112,11 +112,15 @@ void visit_blocks(const ClampedPoints<Dim>& points, const VectorXd& z, const dou
   if (!held.empty()) visit(held);
 }
 
-// K of the penalty beta/(2h) r . K r at rest, held components only.
+// K of the penalty beta/(2h) r . K r at rest, held components only. A pressure of its own is what holds the volume's
+// change back, so that the penalty's lambda need not grow with it, and rounding of that hides no softer motion.
+constexpr double most_volume_stiffness = 10;  // lambda / mu
 template <int Dim>
 Mat<Dim> penalty_matrix(const HeldPoint<Dim>& p) {
-  const Mat<Dim> K = 2 * p.material.lame_mu() * Mat<Dim>::Identity() +
-                     p.material.lame_lambda() * p.normal * p.normal.transpose();
+  const double mu = p.material.lame_mu(), lambda = p.material.lame_lambda();
+  const Mat<Dim> K = 2 * mu * Mat<Dim>::Identity() +
+                     (p.pressure ? std::min(lambda, most_volume_stiffness * mu) : lambda) *
+                         p.normal * p.normal.transpose();
   return p.penalty * p.held.asDiagonal() * K * p.held.asDiagonal();
 }
 

@@ -7,10 +7,10 @@
 // V_D is stationary at the exact solution whatever beta is (Nitsche 1971): the first term supplies
 // the reaction that a penalty alone needs a gap for. beta/h must exceed what the inverse inequality
 // of the functions asks for; it grows where a neo-Hookean layer is crushed below half of its
-// thickness (clamps.cpp). d is the displacement of the pin, d0 + D (X - center): columns of z of
-// its own that are always pinned; the force on d0 is the pin's reaction. The penalty's N stays that
-// of the rest shape where a pin turns: consistent, but a turned body's discrete answer differs a
-// little from the turned answer.
+// thickness (clamps.cpp). Of materials with a pressure of their own lambda counts up to 10 mu. d is
+// the displacement of the pin, d0 + D (X - center): columns of z of its own that are always pinned;
+// the force on d0 is the pin's reaction. The penalty's N stays that of the rest shape where a pin
+// turns: consistent, but a turned body's discrete answer differs a little from the turned answer.
 
 #include "sem/mechanics/material.h"
 #include "sem/method/discretization.h"

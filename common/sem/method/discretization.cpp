@@ -92,9 +92,11 @@ void project_controls(Discretization<Dim>& d) {
 // The condensed one: the coefficients are the unknowns.
 template <int Dim>
 void choose_coefficients(Discretization<Dim>& d) {
-  // A function whose energy is below the rule's error is one that the rule cannot tell from none.
+  // A function whose energy is below the rule's error is one that the rule cannot tell from none. Nor can rounding
+  // beside a stiffness against changes of volume lambda / mu times that against shear; up to 10 (nu = 0.4545) is none.
+  const double rounding = std::max(1e-10, 1e-9 * (d.options.volume_stiffness - 10));
   const bool resolved = d.options.interior_rule.rule == InteriorRule::resolved;
-  const double tolerance = resolved ? std::max(1e-10, 0.1 * d.options.interior_rule.weight_tolerance) : 1e-10;
+  const double tolerance = std::max(rounding, resolved ? 0.1 * d.options.interior_rule.weight_tolerance : 0.0);
   auto free = timed(d.cost, "coefficients", [&] {
     return free_coefficients(d.quadrature.position, d.quadrature.weight, d.weights,
                              d.options.projection.degree, tolerance);

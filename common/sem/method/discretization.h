@@ -42,6 +42,7 @@ struct MethodOptions {
   InteriorOptions interior_rule;
   WeightOptions weights;
   std::vector<double> stiffness = {};  ///< #parts: of their materials (material_weights.h); empty: all alike
+  double volume_stiffness = 1;  ///< condensed: largest lambda / mu of the materials (choose_coefficients)
   int patch_levels = 0;     ///< of patches at joints, condensed only (joint_patches.h)
   std::vector<int> condition = {};  ///< #parts: as find_joint_patches has it; empty: all are held and loaded alike
   OwnPressure own_pressure = OwnPressure::automatic;

@@ -93,7 +93,7 @@ RefinedScene<Dim> meet_accuracy(const Scene<Dim>& scene, const std::string& file
     round.expected = relative_error(result.scene, result.estimate);
     round.seconds = watch.seconds();
     result.rounds.push_back(round);
-    result.reached = round.expected <= scene.accuracy;
+    result.reached = round.expected <= scene.accuracy && result.estimate.complete();
     if (result.reached) return result;
     const auto next = best_refinement(result.scene, result.estimate, max_unknowns);
     if (!next) return result;

@@ -28,7 +28,7 @@ template <int Dim>
 double relative_error(const Scene<Dim>& scene, const ErrorEstimate& estimate);
 
 /// Estimates the error and makes that setting finer which changes the probes most (quadrature, parts, degree,
-/// time step), until the estimate is below scene.accuracy, or the next one would exceed `max_unknowns` or a
+/// time step), until the estimate is below scene.accuracy and lacks no refinement, or the next one would exceed `max_unknowns` or a
 /// weight_tolerance of 1e-5.
 /// Condensed formulation only, with at least one probe or modes: InputError (field `accuracy`) otherwise.
 template <int Dim>

@@ -1,5 +1,6 @@
 #include "sem/scene/estimate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -107,6 +108,11 @@ bool apply(const Change& change, const Model<Dim>& model, Scene<Dim>& scene) {
 }
 
 }  // namespace
+
+bool ErrorEstimate::complete() const {
+  return std::none_of(variations.begin(), variations.end(),
+                      [](const Variation& v) { return v.refinement && !v.failure.empty(); });
+}
 
 template <int Dim>
 Scene<Dim> linear_response(Scene<Dim> scene) {

@@ -31,6 +31,9 @@ struct ErrorEstimate {
   std::vector<double> value;         ///< at the end of the run
   std::vector<double> estimate;      ///< per column: the largest factor * change by any variation
   std::vector<Variation> variations;
+
+  /// No refinement failed: one that did might have changed the most.
+  bool complete() const;
 };
 
 /// Nothing to judge (no probes, and no modes): no columns, and nothing is run. Otherwise

@@ -62,6 +62,9 @@ class Builder {
     }
     MethodOptions options = scene_.method;
     options.stiffness = part_stiffness();
+    for (const PartInfo& part : parts_)
+      options.volume_stiffness =
+          std::max(options.volume_stiffness, part.material->lame_lambda() / part.material->lame_mu());
     options.condition = boundary_conditions();
     options.near_differences = scene_.pins.empty();  // pins take control points out of the system one by one
     model_->discretization = discretize<Dim>(solids, options, trims);

@@ -319,6 +319,9 @@ class Run {
         add(", truth %.6g: error %.2g", *truth, std::abs(value - *truth));
       add("%s\n", estimated(history_->columns()[c]).c_str());
     }
+    for (const auto& variation : estimate_.variations)
+      if (!variation.failure.empty())
+        add("warning:  the estimate lacks '%s': no result\n", variation.setting.c_str());
     if (scene_.analysis.kind == AnalysisKind::modes)
       for (int m = 0; m < history_->size(); ++m)
         add("          mode %d: omega = %.6g rad/s%s\n", m + 1, history_->row(m)[1],
