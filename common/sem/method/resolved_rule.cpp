@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "sem/base/error.h"
-#include "sem/method/critical_values.h"
 #include "sem/method/line_rules.h"
+#include "sem/method/ray_blocks.h"
 
 namespace sem {
 namespace {
@@ -21,7 +21,7 @@ constexpr double least_share = 1e-4;
 // A box in the coordinates sigma of the cells, [0, 1] each: across the rays (Dim - 1), then along.
 template <int Dim>
 struct Patch {
-  int block = 0, interval = 0;  // between which critical values; which of a ray's intervals
+  int block = 0, interval = 0;  // which of a ray's intervals
   std::array<double, Dim> lower{}, upper{};
   std::array<int, Dim> depth{};
 };
@@ -83,24 +83,15 @@ struct Leaf {
   bool refinable = true;  // false: halved as often as allowed
 };
 
-// t^2 (3 - 2 t) takes a square root at either end, as a chord has it at an extremum, to a smooth
-// function.
-double bend(double t) { return t * t * (3 - 2 * t); }
-double bend_slope(double t) { return 6 * t * (1 - t); }
-
 template <int Dim>
 class Refiner {
  public:
   Refiner(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
           const IndicatorsAt<Dim>& indicators, const ResolvedOptions& options, int n_threads)
-      : boundary_(boundary),
-        loops_(loops),
+      : blocks_(boundary, loops, options.axis, n_threads),
         indicators_(indicators),
         options_(options),
-        n_threads_(n_threads),
-        rule_(gauss_legendre(options.points)) {
-    for (int b = 0; b < Dim - 1; ++b) across_[b] = (options.axis + 1 + b) % Dim;
-  }
+        rule_(gauss_legendre(options.points)) {}
 
   ResolvedRule<Dim> run() {
     auto first = integrate(first_patches());
@@ -130,69 +121,49 @@ class Refiner {
   }
 
  private:
-  // The blocks between critical values, and in each as many intervals as any ray there has.
+  // All blocks, each with as many intervals as any ray there has.
   std::vector<Patch<Dim>> first_patches() {
-    std::array<std::vector<double>, Dim - 1> cuts;
-    int n_blocks = 1;
-    for (int b = 0; b < Dim - 1; ++b) {
-      cuts[b] = critical_values<Dim>(boundary_, loops_, options_.axis, across_[b]);
-      n_blocks *= std::max(0, int(cuts[b].size()) - 1);
+    std::vector<Patch<Dim>> whole(blocks_.size());
+    for (int b = 0; b < blocks_.size(); ++b) {
+      whole[b].block = b;
+      whole[b].upper.fill(1);
     }
+    const auto rays = cast_through(whole);
+    const size_t per_patch = rays.size() / std::max<size_t>(1, whole.size());
     std::vector<Patch<Dim>> patches;
-    for (int block = 0; block < n_blocks; ++block) {
-      Box<Dim> box;
-      box.lower.setZero();
-      box.upper.setZero();
-      for (int b = 0, rest = block; b < Dim - 1; ++b) {
-        const int n = int(cuts[b].size()) - 1;
-        box.lower[across_[b]] = cuts[b][rest % n];
-        box.upper[across_[b]] = cuts[b][rest % n + 1];
-        rest /= n;
-      }
-      blocks_.push_back(box);
-      Patch<Dim> patch;
-      patch.block = block;
-      patch.upper.fill(1);
+    for (size_t b = 0; b < whole.size(); ++b) {
       size_t n_intervals = 0;
-      for (const auto& ray : cast_through({patch}).rays)
-        n_intervals = std::max(n_intervals, ray.intervals.size());
-      for (patch.interval = 0; patch.interval < int(n_intervals); ++patch.interval)
-        patches.push_back(patch);
+      for (size_t r = b * per_patch; r < (b + 1) * per_patch; ++r)
+        n_intervals = std::max(n_intervals, rays[r].intervals.size());
+      for (whole[b].interval = 0; whole[b].interval < int(n_intervals); ++whole[b].interval)
+        patches.push_back(whole[b]);
     }
     return patches;
   }
 
   // Rays through the transverse Gauss points of every patch, with the area (length) they stand for.
-  Rays<Dim> cast_through(const std::vector<Patch<Dim>>& patches) const {
-    Rays<Dim> rays;
-    rays.axis = options_.axis;
+  std::vector<Ray<Dim>> cast_through(const std::vector<Patch<Dim>>& patches) {
     const int n = int(rule_.node.size());
     const int per_patch = int(std::lround(std::pow(n, Dim - 1)));
-    for (const auto& patch : patches) {
-      const auto& box = blocks_[patch.block];
+    std::vector<BlockRay<Dim>> rays;
+    for (const auto& patch : patches)
       for (int r = 0; r < per_patch; ++r) {
-        Ray<Dim> ray;
-        ray.origin.setZero();
-        ray.weight = 1;
+        BlockRay<Dim> ray{patch.block, {}, 1};
         for (int b = 0, rest = r; b < Dim - 1; ++b, rest /= n) {
           const double width = (patch.upper[b] - patch.lower[b]) / 2;
-          const double sigma = patch.lower[b] + width * (1 + rule_.node[rest % n]);
-          const double size = box.upper[across_[b]] - box.lower[across_[b]];
-          ray.origin[across_[b]] = box.lower[across_[b]] + size * bend(sigma);
-          ray.weight *= size * bend_slope(sigma) * width * rule_.weight[rest % n];
+          ray.at[b] = patch.lower[b] + width * (1 + rule_.node[rest % n]);
+          ray.weight *= width * rule_.weight[rest % n];
         }
-        rays.rays.push_back(ray);
+        rays.push_back(ray);
       }
-    }
-    cast(boundary_, loops_, rays, n_threads_);
-    return rays;
+    return blocks_.cast(rays);
   }
 
   // The rules of the patches and their integrals.
   std::vector<Piece<Dim>> integrate(const std::vector<Patch<Dim>>& patches) {
-    const Rays<Dim> rays = cast_through(patches);
+    const std::vector<Ray<Dim>> rays = cast_through(patches);
     const int n = int(rule_.node.size());
-    const size_t per_patch = patches.empty() ? 0 : rays.rays.size() / patches.size();
+    const size_t per_patch = rays.size() / std::max<size_t>(1, patches.size());
     std::vector<Piece<Dim>> pieces(patches.size());
     std::vector<Vec<Dim>> all;
     for (size_t p = 0; p < patches.size(); ++p) {
@@ -201,7 +172,7 @@ class Refiner {
       std::vector<double> weight;
       const size_t first = all.size();
       for (size_t r = p * per_patch; r < (p + 1) * per_patch; ++r) {
-        const Ray<Dim>& ray = rays.rays[r];
+        const Ray<Dim>& ray = rays[r];
         if (piece.patch.interval >= int(ray.intervals.size())) continue;
         const RayInterval& interval = ray.intervals[piece.patch.interval];
         const double length = interval.end - interval.begin;
@@ -346,14 +317,10 @@ class Refiner {
     result.n_cells = int(leaves_.size());
   }
 
-  const Boundary<Dim>& boundary_;
-  const Loops<Dim>& loops_;
+  RayBlocks<Dim> blocks_;
   const IndicatorsAt<Dim>& indicators_;
   ResolvedOptions options_;
-  int n_threads_;
   LineRule rule_;
-  std::array<int, Dim - 1> across_;
-  std::vector<Box<Dim>> blocks_;
   std::vector<Leaf<Dim>> leaves_;
   std::vector<double> scale_;  // per indicator: its integral, times their number
 };

@@ -4,7 +4,7 @@
 //
 // Blending weights are smooth only on pieces: they have kinks where a support ends or a closest
 // point leaves its part, and change fast near corners. A rule that is exact for smooth integrands
-// misses that energy. Here cells lie between critical values of rays (critical_values.h) and along
+// misses that energy. Here cells lie in blocks of rays (ray_blocks.h) and along
 // their intervals; each has a Gauss rule, and is halved across the direction in which that changes
 // its integrals most, until the changes left add up to less than the tolerance.
 
