@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "sem/base/error.h"
+#include "sem/method/boundary_integrals.h"
 #include "sem/method/loops.h"
 #include "sem/method/rays.h"
 #include "sem/nurbs/closest.h"
@@ -83,6 +84,7 @@ class SceneOfCad {
       trims.push_back(part.trims);
     }
     boundary_ = make_boundary<3>(solids, trims);
+    loops_ = find_loops(boundary_);
   }
 
   std::string text(const std::string& path) const {
@@ -119,7 +121,8 @@ class SceneOfCad {
         << " (E = " << rounded(material.material.youngs_modulus) << " Pa), ";
     if (pin)
       out << "held: --pin " << options_.pin << ", " << n_held(*pin) << " control points in ["
-          << text_of(pin->lower) << "] to [" << text_of(pin->upper) << "] m.\n";
+          << text_of(pin->lower.cwiseMax(boundary_.box.lower)) << "] to ["
+          << text_of(pin->upper.cwiseMin(boundary_.box.upper)) << "] m.\n";
     else
       out << "held nowhere.\n";
     for (const auto& note : model_.notes) out << "// Mended: " << note << ".\n";
@@ -143,18 +146,25 @@ class SceneOfCad {
     out << " }\n    }" << comma << "\n";
   }
 
-  // Rays along x, some through every part.
-  void write_method(std::ostream& out) const {
+  // An exact rule where the boundary tells its volume, with waves enough for the weights; else rays along x, some through every part.
+  std::string quadrature() const {
+    constexpr int most_parts = 100;  // exact rules of more take minutes
+    if (boundary_.n_parts() <= most_parts && boundary_moments(boundary_, loops_).available)
+      return "{ \"method\": \"exact\", \"tolerance\": 0.001, \"waves\": 6 }";
+    std::ostringstream out;
     const double size = part_size();
     const double across = (boundary_.box.upper - boundary_.box.lower).tail<2>().maxCoeff();
     const int rays = int(std::clamp(std::ceil(3 * across / size), 16.0, 40.0));
     const double spacing = std::max(size / 3, boundary_.box.diagonal() / 300);
+    out << "{ \"method\": \"rays\", \"axis\": \"x\", \"grid\": \"gauss\", \"rule\": \"gauss\", \"rays\": " << rays
+        << ", \"spacing\": " << rounded(spacing) << " }";
+    return out.str();
+  }
+
+  void write_method(std::ostream& out) const {
     out << "  \"method\": {\n    \"formulation\": \"condensed\",\n    \"degree\": 2,\n    "
            "\"own_pressure\": \"never\", // which couples all parts with each other\n"
-        << "    \"quadrature\": { \"method\": \"rays\", \"axis\": \"x\", \"grid\": \"gauss\", "
-           "\"rule\": \"gauss\", "
-        << "\"rays\": " << rays << ", \"spacing\": " << rounded(spacing) << " },\n"
-        << "    \"weights\": { \"cutoff\": " << rounded(1.5 * depth())
+        << "    \"quadrature\": " << quadrature() << ",\n    \"weights\": { \"cutoff\": " << rounded(1.5 * depth())
         << " } // covers the inside\n  },\n\n";
   }
 
@@ -173,10 +183,9 @@ class SceneOfCad {
 
   // How far inside points on some rays lie from the closest part at most, m.
   double depth() const {
-    const auto loops = find_loops(boundary_);
     double depth = 0;
     for (int axis = 0; axis < 3; ++axis)
-      for (const auto& ray : cast_rays(boundary_, loops, {axis, 7, RayGrid::midpoint}).rays)
+      for (const auto& ray : cast_rays(boundary_, loops_, {axis, 7, RayGrid::midpoint}).rays)
         for (const auto& interval : ray.intervals)
           for (const double s : {0.2, 0.5, 0.8}) {
             Vec<3> X = ray.origin;
@@ -253,6 +262,7 @@ class SceneOfCad {
   BareScene options_;
   CadModel model_;
   Boundary<3> boundary_;
+  Loops<3> loops_;
 };
 
 }  // namespace

@@ -186,6 +186,7 @@ TEST_CASE_TEMPLATE("program run --resume ends where a run without a break ends",
       {"parts/checkpoint.bin", "other settings"});
   check_rejected<Dim>(folder, "run @ --out none --resume" + common,
                       {"none/checkpoint.bin", "no readable file"});
+  CHECK(!fs::exists(folder / "none"));
   sem::test::write(folder / "parts/checkpoint.bin",
                    content(folder / "whole/checkpoint.bin").substr(0, 500));
   check_rejected<Dim>(folder, "run @ --out parts --resume" + common,
@@ -261,7 +262,7 @@ TEST_CASE_TEMPLATE("program: bad calls and bad input exit with 2 and leave no fi
   check_rejected<Dim>(folder, "run .", {"'.'"});
   check_rejected<Dim>(folder, "run ''", {"''"});
   check_rejected<Dim>(folder, "run " + std::string(5000, 'x'), {"neither a file nor"});
-  check_rejected<Dim>(folder, "run @ nonsense", {"--set", "nonsense", "key=value"});
+  check_rejected<Dim>(folder, "run @ nonsense", {"OVERRIDES", "nonsense", "key=value"});
   check_rejected<Dim>(folder, "run @ --set analysis.time_step=0",
                       {"@", "analysis.time_step", "found 0"});
   check_rejected<Dim>(folder, "run @ --set solids[0].material.poisson_ratio=0.5",
@@ -279,6 +280,10 @@ TEST_CASE_TEMPLATE("program: bad calls and bad input exit with 2 and leave no fi
   sem::test::write(folder / "open.json",
                    std::string(R"({"solids": [{"parts": [)") + Sem<Dim>::open_part + "]}]}");
   check_rejected<Dim>(folder, "run open.json", {"open.json", "no interior"});
+  if (Dim == 2) {
+    sem::test::write(folder / "part.step", "ISO-10303-21;");
+    check_rejected<Dim>(folder, "run part.step", {"part.step", "a CAD file", "sem3d"});
+  }
   sem::test::write(folder / "empty.json", "");
   check_rejected<Dim>(folder, "run empty.json", {"empty.json", "line 1"});
   CHECK(!fs::exists(folder / "out"));

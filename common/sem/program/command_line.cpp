@@ -125,6 +125,9 @@ CommandLine read_command_line(const std::string& program, const std::string& abo
     line.exit_code = app.exit(error) == 0 ? 0 : 2;
     return line;
   }
+  for (const auto& word : more_overrides)
+    if (word.find('=') == std::string::npos)
+      throw InputError("", "OVERRIDES", "'" + word + "'", "key=value, as in analysis.time_step=0.005 (--resume takes no file: it goes on in --out)");
   line.overrides.insert(line.overrides.end(), more_overrides.begin(), more_overrides.end());
   line.frames = !no_frames;
   line.has_bare = std::any_of(bare_options.begin(), bare_options.end(),

@@ -84,7 +84,12 @@ class Commands {
     if (is_solid_file())
       return {solid_file_text(fs::path(line_.scene).filename().string()), line_.scene};
     refuse_bare_options();
-    if (fs::is_regular_file(line_.scene, error)) return {read_file(line_.scene), line_.scene};
+    if (fs::is_regular_file(line_.scene, error)) {
+      for (const char* ending : {".step", ".stp", ".igs", ".iges"})
+        if (line_.scene.ends_with(ending))
+          throw InputError(line_.scene, "SCENE", "a CAD file", "a JSON file or a built-in scene; CAD files are for sem3d, built with OpenCASCADE");
+      return {read_file(line_.scene), line_.scene};
+    }
     return {builtin_text("SCENE", "neither a file nor a built-in scene", "a JSON file or "),
             line_.scene};
   }
@@ -123,11 +128,13 @@ class Commands {
     FrameCallback<Dim> on_frame;
     if (draw || solids)
       on_frame = [&](const Model<Dim>& model, const State& state, int frame) {
-        if (frame == 0 || !fs::exists(frames)) make_folder(frames.string());
         if (draw) {
           if (!paint) paint = program_.painter(scene);
-          writer.write((frames / frame_name(frame, "png")).string(), paint(model, state));
+          auto picture = paint(model, state);
+          make_folder(frames.string());
+          writer.write((frames / frame_name(frame, "png")).string(), std::move(picture));
         }
+        if (solids) make_folder(frames.string());
         if (solids)
           program_.solid_files.write((frames / frame_name(frame, line_.solid_frames)).string(),
                                      scene, control_points(model.discretization.unknowns, state.z));

@@ -13,6 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Powers of what is larger overflow.
+constexpr double largest_number = 1e30;
+
 // A value as it stands in the file, shortened.
 std::string shown(const Json& value) {
   std::string text = value.dump();
@@ -174,6 +177,7 @@ class FieldReader : public Fields {
     const double number = value.get<double>();
     if (!std::isfinite(number) || !range.contains(number))
       throw InputError(file_, path, shown(value), range.text());
+    if (std::abs(number) > largest_number) throw InputError(file_, path, shown(value), range.text() + ", at most 1e30 in size");
     return number;
   }
 
@@ -267,7 +271,11 @@ Json parse(const std::string& text, const std::string& file) {
   } catch (const Json::parse_error& error) {
     fail(place(text, error.byte), error.what());
   } catch (const Json::exception& error) {  // a number too large
-    fail("", error.what());
+    const std::string what = error.what();
+    const size_t open = what.find('\''), close = what.rfind('\'');
+    const std::string number = open < close ? what.substr(open + 1, close - open - 1) : "";
+    const size_t at = number.empty() ? std::string::npos : text.find(number);
+    throw InputError(file, at == std::string::npos ? "" : place(text, at + 1), "the number " + number, "numbers of at most 1e30 in size");
   }
   return {};
 }

@@ -111,6 +111,9 @@ void describe_solid(Fields& fields, SceneSolid<Dim>& solid, const ShapeLibrary<D
     std::string& name = solid.parts[i].name;
     if (name.empty()) name = "part." + std::to_string(i + 1);
     if (!names.insert(name).second) fields.reject("parts", "two parts named '" + name + "'", "a name of its own for each part");
+    const Points<Dim>& points = solid.parts[i].shape.control_points;
+    if ((points.rowwise().maxCoeff() - points.rowwise().minCoeff()).isZero(0))
+      fields.reject("parts", "all control points of '" + name + "' in one place", "a part of some extent");
   }
 }
 

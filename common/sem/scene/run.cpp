@@ -14,6 +14,7 @@
 #include "sem/scene/files.h"
 #include "sem/scene/json_text.h"
 #include "sem/scene/monitor.h"
+#include "sem/scene/report.h"
 #include "sem/scene/summary.h"
 #include "sem/solve/modes.h"
 
@@ -65,7 +66,7 @@ class Run {
       throw InputError(options_.file, "--resume", "an analysis that is not dynamic", "a dynamic one: only these have checkpoints");
     progress(0, "preparing");
     model_ = build_model(scene_, options_.file);
-    if (!options_.folder.empty()) make_folder(options_.folder);
+    if (!options_.folder.empty() && !options_.resume) make_folder(options_.folder);
     accuracy_ = measure_accuracy(*model_);
     monitor_ = std::make_unique<Monitor<Dim>>(scene_, *model_);
     state_ = model_->initial;
@@ -89,7 +90,7 @@ class Run {
     }
     write_results();  // whatever happens to the estimate
     if (!refined_ && scene_.output.error_estimate && result_.ok) {
-      progress(1, "estimating the error");
+      progress(0, "estimating the error");
       const Stopwatch watch;
       estimate_ = estimate_error(scene_, options_.file);
       estimate_seconds_ = watch.seconds();
@@ -268,70 +269,10 @@ class Run {
     return json;
   }
 
-  static std::string short_text(double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return std::isfinite(value) ? text : "no value";
-  }
-
-  // ", estimated error ..." of a value, if there is one.
-  std::string estimated(const std::string& column) const {
-    for (size_t c = 0; c < estimate_.columns.size(); ++c)
-      if (estimate_.columns[c] == column) {
-        char text[60];
-        std::snprintf(text, sizeof text, ", estimated error %.2g", estimate_.estimate[c]);
-        return text;
-      }
-    return "";
-  }
-
-  // The lines that summary.json says at length.
-  std::string report_text() const {
-    double preparing = 0;
-    for (const auto& stage : model_->cost) preparing += stage.seconds;
-    char line[200];
-    std::string text;
-    const auto add = [&](const char* format, auto... values) {
-      std::snprintf(line, sizeof line, format, values...);
-      text += line;
-    };
-    add("cost:     %d unknowns, %d points; preparation %.3g s, ", model_->n_unknowns(),
-        model_->discretization.quadrature.size(), preparing);
-    if (scene_.analysis.kind == AnalysisKind::dynamics && report_.n_steps > 0)
-      add("%ld steps of %.3g ms", report_.n_steps, 1e3 * report_.seconds / double(report_.n_steps));
-    else
-      add("analysis %.3g s", report_.seconds);
-    add(" (%s build)\n", build_type);
-    add("%s", "accuracy: ");
-    if (accuracy_.boundary.available)
-      add("%s off by %.2g (relative), second moments by %.2g; ", DimTraits<Dim>::volume_name,
-          accuracy_.volume_error, accuracy_.second_moment_error);
-    add("uncovered %.2g\n", accuracy_.uncovered_share);
-    if (folded_share_ > 0)
-      add("warning:  the map is folded at the end: %.2g of the %s is turned inside out\n", folded_share_,
-          DimTraits<Dim>::volume_name);
-    const size_t n_probes = scene_.analysis.kind == AnalysisKind::modes ? 0 : monitor_->probe_columns().size();
-    for (size_t probe = 0; probe < n_probes; ++probe) {
-      const size_t c = history_->columns().size() - n_probes + probe;
-      const double value = history_->row(history_->size() - 1)[c];
-      add("          %s = %s", history_->columns()[c].c_str(), short_text(value).c_str());
-      if (const auto truth = monitor_->probe_truths()[probe])
-        add(", truth %.6g: error %.2g", *truth, std::abs(value - *truth));
-      add("%s\n", estimated(history_->columns()[c]).c_str());
-    }
-    for (const auto& variation : estimate_.variations)
-      if (!variation.failure.empty())
-        add("warning:  the estimate lacks '%s': no result\n", variation.setting.c_str());
-    if (scene_.analysis.kind == AnalysisKind::modes)
-      for (int m = 0; m < history_->size(); ++m)
-        add("          mode %d: omega = %.6g rad/s%s\n", m + 1, history_->row(m)[1],
-            estimated("mode_" + std::to_string(m + 1) + "_rad_s").c_str());
-    return text;
-  }
-
   void write_results() {
     result_.summary_json = json_text(summary());
-    result_.report = report_text();
+    result_.report = report_text<Dim>({scene_, *model_, *monitor_, *history_, accuracy_, report_, estimate_, folded_share_,
+                                       output_seconds_, estimate_seconds_});
     if (options_.folder.empty()) return;
     write_file(path("history.csv"), history_->text());
     write_file(path("final_state.json"), deformed_parts(scene_, *model_, state_));
