@@ -48,12 +48,12 @@ void draw(Plot& plot, const Data& data) {
   plot.shared_legend = true;
   Panel& refinement = plot.panel(0, 0);
   refinement.title = "parts are split";
-  refinement.x = {.label = "unknowns", .lower = 20, .upper = 1000, .logarithmic = true};
-  refinement.y = {.label = "error of the tip (%)", .lower = 0.05, .upper = 100, .logarithmic = true};
+  refinement.x = {.label = "unknowns", .lower = 50, .upper = 1000, .logarithmic = true};
+  refinement.y = {.label = "error of the tip (%)", .lower = 1e-5, .upper = 100, .logarithmic = true};
   Panel& reach = plot.panel(0, 1);
   reach.title = "4 parts along, any cutoff";
   reach.x = {.label = "cutoff (m)", .lower = 0.4, .upper = 2.1};
-  reach.y = {.label = "", .lower = 0.05, .upper = 100, .logarithmic = true, .tick_labels = false};
+  reach.y = {.label = "", .lower = 1e-5, .upper = 100, .logarithmic = true, .tick_labels = false};
   for (int degree = 1; degree <= 4; ++degree) {
     const Series style = series(degree - 1, "degree " + std::to_string(degree));
     const DataTable line = data["parts"].where("degree", degree);
@@ -67,8 +67,8 @@ void draw(Plot& plot, const Data& data) {
 
 Figure condensed_convergence() {
   return {"condensed_convergence",
-          "Condensed formulation, the same cantilever: the error of the tip falls with parts and degree and "
-          "does not depend on the cutoff, once that covers the solid (0.5 m)",
+          "Condensed formulation, the same cantilever: the error of the tip falls with parts and degree; "
+          "from degree 3 on it stays below 0.1 % for every cutoff that covers the solid (0.5 m)",
           7,
           2.8,
           compute,

@@ -64,7 +64,7 @@ void draw(Plot& plot, const Data& data) {
     for (const double s : line["assembly_seconds"]) ms.push_back(1e3 * s);
     time.curve(line["kept"], ms, series(0));
   }
-  time.horizontal(1e3 * data["full"].value("assembly_seconds"), "all columns");
+  time.horizontal(1e3 * data["full"].value("assembly_seconds"), "all");
 }
 
 }  // namespace
@@ -72,8 +72,8 @@ void draw(Plot& plot, const Data& data) {
 Figure pruning() {
   return {"pruning",
           "Draft eq. 14: cutting B to its largest columns changes a beam's static solution ten to "
-          "two hundred times more than B, renormalised or not; assembly is faster only for few "
-          "columns, since points that keep different ones no longer share products",
+          "two hundred times more than B, renormalised or not; assembly is hardly "
+          "faster before few columns are left, since points that keep different ones no longer share products",
           7,
           2.6,
           compute,

@@ -151,7 +151,7 @@ Figure quadrature_work() {
   return {"quadrature_work",
           "The same rules and errors against the time that making them takes, one thread: exact "
           "rules look for turning "
-          "points and joints first, 1 to 10 ms, and are ahead below errors of 1e-4, on the disc of "
+          "points and joints first, which takes milliseconds, and are ahead below errors of 1e-4, on the disc of "
           "1e-6",
           7,
           5,
