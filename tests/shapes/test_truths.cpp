@@ -59,8 +59,8 @@ TEST_CASE("Cook's membrane, n = 4: nearly incompressible materials leave no sing
   }
 }
 
-// Lame: u_r = p a^3 / (E (b^3 - a^3)) ((1 - 2 nu) r + (1 + nu) b^3 / (2 r^2)). Twelve cubic polynomials come within 6 %,
-// twice as many patches each way within 3 %.
+// Lame: u_r = p a^3 / (E (b^3 - a^3)) ((1 - 2 nu) r + (1 + nu) b^3 / (2 r^2)). Twelve cubic polynomials come within 9 %,
+// those of patches split in four within 1.3 % (of 20 000 points).
 TEST_CASE("a hollow ball under inner pressure widens as Lame's, condensed, of few points") {
   const char* text = R"({"name": "hollow",
     "solids": [{"name": "ball", "material": {"model": "linear", "youngs_modulus": 1000, "poisson_ratio": 0.3},
