@@ -158,9 +158,7 @@ void draw(Plot& plot, const Data& data) {
     for (const auto& X : seen) ground = std::min(ground, X[2]);
     const auto scene = [deformed, rest, largest, ground](double point) {
       auto result = stressed(deformed, {0, largest}, point);
-      auto ghost = lines_of(rest, 0, {0.45, 0.45, 0.5}, 0.5 * point, deformed.trims);
-      ghost.hidden = 0.3;
-      result.lines.push_back(std::move(ghost));
+      result.lines.push_back(rest_lines(rest, deformed.parts, 0.5 * point, deformed.trims));
       result.ground = ground;
       return result;
     };
@@ -174,8 +172,8 @@ void draw(Plot& plot, const Data& data) {
 Figure cad_models() {
   Figure figure{"cad_models",
                 "Models of CAD files, written by the library and read back with their trimmed "
-                "faces, of rubber, under "
-                "their weight, a pull at the handle or a wind. Lines: at rest",
+                "faces, of rubber (the wrench of a stiffer one, 4 MPa), under "
+                "their weight, a pull at the handle or a wind. Gray lines: at rest, of what moved",
                 7,
                 2.6,
                 compute,

@@ -62,9 +62,7 @@ void draw_scene(Panel& panel, const Data& data, int number) {
   for (const auto& X : seen_points(rest, deformed.trims)) seen.push_back(X);
   const auto scene = [deformed, rest, scale, ground](double point) {
     auto result = stressed(deformed, scale, point);
-    auto lines = lines_of(rest, 0, {0.6, 0.6, 0.63}, 0.4 * point, deformed.trims);
-    lines.hidden = 0.15;
-    result.lines.push_back(std::move(lines));
+    result.lines.push_back(rest_lines(rest, deformed.parts, 0.4 * point, deformed.trims));
     result.ground = ground;
     return result;
   };
@@ -81,7 +79,7 @@ void draw(Plot& plot, const Data& data) {
 
 Figure gallery_3d() {
   Figure figure{"gallery_3d",
-                "The scenes of sem3d, deformed; gray lines: at rest. Colours are the von Mises "
+                "The scenes of sem3d, deformed; gray lines: at rest, of what moved. Colours are the von Mises "
                 "stress, each scene's scale ending where the text below says",
                 7,
                 5.8,

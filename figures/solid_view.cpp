@@ -182,6 +182,18 @@ render::Lines lines_of(const std::vector<Nurbs<2, 3>>& parts, int between, const
   return lines;
 }
 
+render::Lines rest_lines(const std::vector<Nurbs<2, 3>>& rest, const std::vector<Nurbs<2, 3>>& now,
+                         double width, const Trims& trims) {
+  render::Lines lines{{}, {0.55, 0.55, 0.58}, width};
+  const double least = control_box(rest).diagonal() / 100;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    if ((now[i].control_points - rest[i].control_points).colwise().norm().maxCoeff() < least) continue;
+    auto of_part = lines_of({rest[i]}, 0, lines.color, width, trims.empty() ? Trims{} : Trims{trims[i]});
+    for (auto& chain : of_part.chains) lines.chains.push_back(std::move(chain));
+  }
+  return lines;
+}
+
 std::vector<Vec<3>> seen_points(const std::vector<Nurbs<2, 3>>& parts, const Trims& trims) {
   const render::Flatness flatness{control_box(parts).diagonal() / 200};
   std::vector<Vec<3>> points;

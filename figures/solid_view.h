@@ -57,6 +57,9 @@ std::vector<render::Mesh> meshes_of(const std::vector<Nurbs<2, 3>>& parts,
 /// parts their borders alone.
 render::Lines lines_of(const std::vector<Nurbs<2, 3>>& parts, int between, const Color& color,
                        double width, const Trims& trims = {});
+/// Lines along the sides at rest of the parts that have moved by a hundredth of the solid's size.
+render::Lines rest_lines(const std::vector<Nurbs<2, 3>>& rest, const std::vector<Nurbs<2, 3>>& now,
+                         double width, const Trims& trims = {});
 /// Points of the surfaces as close as outlines need them, to be framed.
 std::vector<Vec<3>> seen_points(const std::vector<Nurbs<2, 3>>& parts, const Trims& trims = {});
 /// Corners of the box of all control points, to be framed.

@@ -140,6 +140,12 @@ class SolidPainter::Drawing {
     return height;
   }
 
+  // Far enough for its lines at rest to be told from those now.
+  bool has_moved(const PreparedNurbs<2, 3>& now, const PreparedNurbs<2, 3>& rest) const {
+    const double way = (now.nurbs.control_points - rest.nurbs.control_points).colwise().norm().maxCoeff();
+    return way > 0.01 * setup_.box.diagonal();
+  }
+
   // Adds the parts. Returns where the colour scale ends.
   double surfaces() {
     const Eigen::VectorXd stress = von_mises(model_, state_.z);
@@ -147,7 +153,7 @@ class SolidPainter::Drawing {
     const double limit = scale_.limit;
     const auto& b = model_.discretization.boundary;
     render::Lines ends{{}, picture::ink, 1.2 * unit_},
-        rest{{}, {0.7, 0.7, 0.72}, 0.7 * unit_, 0.25};
+        rest{{}, {0.7, 0.7, 0.72}, 0.7 * unit_};
     for (int i = 0; i < b.n_parts(); ++i) {
       deformed_.push_back(part(i, p_));
       const auto& deformed = deformed_.back();
@@ -156,7 +162,8 @@ class SolidPainter::Drawing {
       if (limit > 0) mesh.colors = colors_of(mesh, i, stress, limit);
       result_.meshes.push_back(std::move(mesh));
       for (auto& chain : outline(deformed, flatness_)) ends.chains.push_back(std::move(chain));
-      for (auto& chain : outline(b.parts[i], flatness_)) rest.chains.push_back(std::move(chain));
+      if (has_moved(deformed, b.parts[i]))
+        for (auto& chain : outline(b.parts[i], flatness_)) rest.chains.push_back(std::move(chain));
     }
     result_.lines = {rest, ends};
     return limit;

@@ -176,6 +176,7 @@ void Picture::draw_opaque() const {
   set_light(*gl_.ground);
   set_visibility(*gl_.ground);
   gl_.ground->set("ground_center", ground_center(*scene_.ground));
+  gl_.ground->set("picture_size", Eigen::Vector2f(float(width_), float(height_)));
   draw_ground();
 }
 

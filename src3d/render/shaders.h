@@ -196,12 +196,15 @@ in vec3 X, N;
 in vec4 albedo;
 flat in float is_lit;
 uniform vec3 ground_center;
+uniform vec2 picture_size;
 layout(location = 0) out vec4 color;
 void main() {
   vec2 seen = seen_at(X, up);
   float key_share = key * max(dot(up, to_key), 0.0);
   float light = (ambient * min(seen.y, 1.0) + key_share * seen.x) / (ambient + key_share);
-  float far = smoothstep(1.0, 2.1, distance(X, ground_center));
+  vec2 border = min(gl_FragCoord.xy, picture_size - gl_FragCoord.xy) / (0.12 * min(picture_size.x, picture_size.y));
+  float far = 1.0 - (1.0 - smoothstep(1.0, 2.1, distance(X, ground_center))) *
+                        smoothstep(0.0, 1.0, min(border.x, border.y));
   color = vec4(srgb_of(vec3(mix(light, 1.0, far))), 1);
 }
 )";
