@@ -233,7 +233,8 @@ int main(int argc, char** argv) {
         for (int e = 0; e < 2; ++e) energy[e] = v.dot(K[e] * v);
         out << "energy of the softest motion by (12): " << error_text(energy[0], 1e-9)
             << ", of the same by (12'): " << rounded(energy[1], 2)
-            << "\nsoftest by (12'): " << rounded(vibrations(K[1], M, 1e-4).lambda[3], 2) << "\n";
+            << "\nsoftest by (12'): " << rounded(vibrations(K[1], M, 1e-4).lambda[3], 2)
+            << "\n(of motions of one size, E = 1 Pa: (12) does not see what x(X) strains where the weights change)\n";
         soft = (tie * v).reshaped(2, 12);
       },
       [&](Picture& picture) {

@@ -42,7 +42,9 @@ int main(int argc, char** argv) {
         out << "energy: " << rounded(sum.energy) << " J\nb and t add up to "
             << error_text(sum.force.norm() / sum.size, 1e-9)
             << " of their size\nhalf of their work / energy - 1: "
-            << error_text(sum.work / 2 / sum.energy - 1, 1e-9) << "\n";
+            << error_text(sum.work / 2 / sum.energy - 1, 1e-9)
+            << "\nerror (b): that of F in the energy norm, by the size of grad u; z*, the nearest F: the least error "
+               "these functions can have\n(d): what int F dX lacks of int x (x) N da, which it is if F = grad x\n";
       },
       [&](Picture& picture) {
         draw_answer(picture, grid, exact_displacement(grid.X), picture.part({0, 0}, {1, 1}),

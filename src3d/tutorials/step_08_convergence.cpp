@@ -79,7 +79,7 @@ Answer solve(Formulation formulation, int m, int degree, const Choice& choice,
   return a;
 }
 
-std::string percent(double share) { return rounded(100 * share, 2) + " %"; }
+std::string percent(double share) { return (share < 1 ? rounded(100 * share, 2) : rounded(std::round(100 * share), 5)) + " %"; }
 const char* label(Formulation f) { return f == Formulation::projected ? "projected" : "condensed"; }
 
 // The cube where a quarter of the answer's displacement takes it; its ends at rest.
@@ -123,7 +123,9 @@ int main(int argc, char** argv) {
             << " N\nint b dX + int t da: " << error_text((inside + on).norm(), 1e-5) << " N\n"
             << d.boundary.n_parts() << " patches, n = 3, " << d.quadrature.size()
             << " points: F is off by " << percent(first.solution.energy) << ", u by "
-            << percent(first.solution.displacement) << "\n";
+            << percent(first.solution.displacement)
+            << "\nerror (c): that of F in the energy norm; (d): of u in the mean square; nearest F: the least (c) "
+               "that these functions can have\n";
       },
       [&](Picture& picture) {
         view.draw(picture, shown(first));
