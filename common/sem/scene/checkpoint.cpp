@@ -135,7 +135,7 @@ Checkpoint read_checkpoint(const std::string& path, const std::string& settings)
   }
   if (checkpoint.settings != settings)
     throw InputError(path, "settings", "a checkpoint of other settings (" + checkpoint.settings + ")",
-                     "one of this scene (" + settings + ")");
+                     "one of this scene (" + settings + "); summary.json beside it has the settings of that run");
   return checkpoint;
 }
 

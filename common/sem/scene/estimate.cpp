@@ -20,8 +20,7 @@ using Rows = std::vector<std::vector<double>>;  // a row of values per time of t
 
 // The values of the scene's analysis; every `stride`-th step is a time of the original run.
 template <int Dim>
-Rows values_of(const Scene<Dim>& scene, const std::string& file, long stride) {
-  const auto model = build_model(scene, file);
+Rows values_of(const Scene<Dim>& scene, const std::unique_ptr<Model<Dim>>& model, long stride) {
   const Monitor<Dim> monitor(scene, *model);
   State state = model->initial;
   if (scene.analysis.kind == AnalysisKind::modes) {
@@ -155,29 +154,34 @@ bool refine(Scene<Dim>& scene, Refinement refinement) {
 
 template <int Dim>
 ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file) {
+  if (scene.analysis.kind != AnalysisKind::modes && scene.probes.empty()) return {};
+  const auto model = build_model(scene, file);
+  return estimate_error(scene, file, *model, values_of(scene, model, 1));
+}
+
+template <int Dim>
+ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file, const Model<Dim>& model,
+                             const Rows& original) {
   ErrorEstimate result;
   const bool modes = scene.analysis.kind == AnalysisKind::modes;
-  if (!modes && scene.probes.empty()) return result;
-  const auto model = build_model(scene, file);
-  const Rows original = values_of(scene, file, 1);
-  if (original.empty()) return result;
+  if ((!modes && scene.probes.empty()) || original.empty()) return result;
   result.value = original.back();
   if (modes)
     for (size_t m = 1; m <= result.value.size(); ++m)
       result.columns.push_back("mode_" + std::to_string(m) + "_rad_s");
   else
-    result.columns = Monitor<Dim>(scene, *model).probe_columns();
+    result.columns = Monitor<Dim>(scene, model).probe_columns();
   result.estimate.assign(result.value.size(), 0);
   for (const Change& change : changes_for(scene)) {
     Scene<Dim> varied = scene;
-    if (!apply(change, *model, varied)) continue;
+    if (!apply(change, model, varied)) continue;
     Variation variation;
     variation.setting = change.setting;
     variation.refinement = change.refinement;
     variation.factor = change.factor;
     const Stopwatch watch;
     try {
-      const Rows rows = values_of(varied, file, change.refinement == Refinement::time_step ? 2 : 1);
+      const Rows rows = values_of(varied, build_model(varied, file), change.refinement == Refinement::time_step ? 2 : 1);
       variation.change.assign(result.value.size(), 0);
       for (size_t t = 0; t < std::min(rows.size(), original.size()); ++t)
         for (size_t c = 0; c < std::min(rows[t].size(), variation.change.size()); ++c)
@@ -198,6 +202,8 @@ template Scene<3> linear_response<3>(Scene<3>);
 template bool refine<2>(Scene<2>&, Refinement);
 template bool refine<3>(Scene<3>&, Refinement);
 template ErrorEstimate estimate_error<2>(const Scene<2>&, const std::string&);
+template ErrorEstimate estimate_error<2>(const Scene<2>&, const std::string&, const Model<2>&, const Rows&);
 template ErrorEstimate estimate_error<3>(const Scene<3>&, const std::string&);
+template ErrorEstimate estimate_error<3>(const Scene<3>&, const std::string&, const Model<3>&, const Rows&);
 
 }  // namespace sem

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sem/scene/scene.h"
+#include "sem/scene/model.h"
 
 namespace sem {
 
@@ -42,6 +42,11 @@ struct ErrorEstimate {
 /// one less at degree 4); half the time step (dynamics).
 template <int Dim>
 ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file);
+/// The same where the scene's own analysis has been run: on `model`, with `original` the values of the columns at
+/// every step after the start (statics, modes: one row).
+template <int Dim>
+ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file, const Model<Dim>& model,
+                             const std::vector<std::vector<double>>& original);
 
 /// The scene whose error is estimated before a run: its linear response. All materials are linear, and a dynamic
 /// analysis becomes the equilibrium under its loads.

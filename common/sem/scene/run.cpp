@@ -92,7 +92,7 @@ class Run {
     if (!refined_ && scene_.output.error_estimate && result_.ok) {
       progress(0, "estimating the error");
       const Stopwatch watch;
-      estimate_ = estimate_error(scene_, options_.file);
+      estimate_ = estimate_error(scene_, options_.file, *model_, values());
       estimate_seconds_ = watch.seconds();
       write_results();
     }
@@ -194,6 +194,22 @@ class Run {
   void next_frame() {
     const int n = n_frames_until(state_.step);
     if (state_.step == 0 || n > n_frames_until(state_.step - 1)) frame(state_, n - 1);
+  }
+
+  // What an estimate judges, of every step after the start.
+  std::vector<std::vector<double>> values() const {
+    const AnalysisKind kind = scene_.analysis.kind;
+    if (kind == AnalysisKind::modes) {
+      std::vector<double> omega;
+      for (int m = 0; m < history_->size(); ++m) omega.push_back(history_->row(m)[1]);
+      return {omega};
+    }
+    std::vector<std::vector<double>> rows;
+    for (int r = kind == AnalysisKind::dynamics ? 1 : 0; r < history_->size(); ++r) {
+      const auto& row = history_->row(r);
+      rows.emplace_back(row.end() - std::ptrdiff_t(monitor_->probe_columns().size()), row.end());
+    }
+    return rows;
   }
 
   void checkpoint(const std::string& settings) {
