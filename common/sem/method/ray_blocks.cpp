@@ -11,7 +11,7 @@
 namespace sem {
 namespace {
 
-constexpr double grossly_wrong = 0.05;  // difference of volumes, of which one is that of a grid of rays
+constexpr double wrong_volume = 0.05;  // difference of volumes, of which one is that of a grid of rays
 
 // A coordinate in [0, 1] stretched to an interval and bent, and how fast it runs there.
 struct Bent {
@@ -110,7 +110,7 @@ RayBlocks<Dim>::RayBlocks(const Boundary<Dim>& boundary, const Loops<Dim>& loops
     blocks_ = blocks_of(regions_);
     const double truth = length_inside(cast_rays(boundary, loops, {.axis = axis, .n_rays = 32}, n_threads).rays);
     if (blocks_.size() <= std::max<size_t>(64, 2 * fixed_blocks.size()) &&
-        std::abs(volume() - truth) < grossly_wrong * truth)
+        std::abs(volume() - truth) < wrong_volume * truth)
       return;
   }
   regions_ = std::move(fixed);

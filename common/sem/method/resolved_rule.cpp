@@ -16,7 +16,7 @@ namespace {
 constexpr double change_tie = 1e-6;
 
 // Of the mean integral: what is smaller need not be known as well.
-constexpr double least_share = 1e-4;
+constexpr double least_scale = 1e-4;
 
 // A box in the coordinates sigma of the cells, [0, 1] each: across the rays (Dim - 1), then along.
 template <int Dim>
@@ -221,7 +221,7 @@ class Refiner {
       }
     }
     const auto n = double(scale_.size());
-    for (double& scale : scale_) scale = n * std::max(scale, least_share * sum / n);
+    for (double& scale : scale_) scale = n * std::max(scale, least_scale * sum / n);
   }
 
   double relative(const SparseRow& change) const {

@@ -10,8 +10,8 @@ namespace sem {
 namespace {
 
 // Points.
-constexpr double sample = 18, text_gap = 4, line_height = 10.5, column_gap = 10;
-constexpr double bar_width = 7, tick = 2.2, tick_gap = 3, label_gap = 4;
+constexpr double sample = 18, text_gap = 4, row_height = 10.5, entry_gap = 10;
+constexpr double bar_width = 7, tick = 2.2, bar_tick_gap = 3, bar_label_gap = 4;
 
 /// At least two with labels where the scale has them.
 Ticks bar_ticks(const ColorScale& scale, double height_in_points) {
@@ -62,9 +62,9 @@ double Legend::sample_width() const {
 }
 
 Vec<2> Legend::size() const {
-  double width = column_gap * point_ * std::max(0.0, double(column_widths_.size()) - 1);
+  double width = entry_gap * point_ * std::max(0.0, double(column_widths_.size()) - 1);
   for (const double column : column_widths_) width += column;
-  return {width, n_rows_ * line_height * point_};
+  return {width, n_rows_ * row_height * point_};
 }
 
 std::optional<Vec<2>> Legend::free_place(const InkCanvas& ink, const Box<2>& box) const {
@@ -94,9 +94,9 @@ void Legend::draw(const Pen& pen, const Vec<2>& corner) const {
   double column = 0;
   for (std::size_t k = 0; k < entries_.size(); ++k) {
     const int row = int(k) % n_rows_;
-    if (k > 0 && row == 0) column += column_widths_[k / n_rows_ - 1] + column_gap * point_;
+    if (k > 0 && row == 0) column += column_widths_[k / n_rows_ - 1] + entry_gap * point_;
     const auto& [style, box, arrow_length] = entries_[k];
-    const Vec<2> left = corner + Vec<2>(column, (row + 0.5) * line_height * point_);
+    const Vec<2> left = corner + Vec<2>(column, (row + 0.5) * row_height * point_);
     const Vec<2> right = left + Vec<2>(width, 0), middle = (left + right) / 2;
     if (box) {
       const Vec<2> half(std::min(width / 2, 6 * point_), 3 * point_);
@@ -118,7 +118,7 @@ void Legend::draw(const Pen& pen, const Vec<2>& corner) const {
 double color_bar_width(const ColorBar& bar, Canvas& canvas, double point, double height) {
   const Ticks ticks = bar_ticks(bar.scale, height / point);
   const bool label = !axis_label(bar.label, ticks).empty();
-  return (bar_width + tick_gap + (label ? label_gap + lettering : 0)) * point +
+  return (bar_width + bar_tick_gap + (label ? bar_label_gap + lettering : 0)) * point +
          widest(ticks, canvas, point);
 }
 
@@ -136,12 +136,12 @@ void draw_color_bar(const ColorBar& bar, Canvas& canvas, double point, double le
     const double y = std::round(scale(t.value) - top) + top;
     const double length = (t.label.empty() ? 0.5 : 1) * tick * point;
     canvas.line({box.upper[0] - length, y}, {box.upper[0], y}, {.width = frame});
-    canvas.text({box.upper[0] + tick_gap * point, y}, t.label, style);
+    canvas.text({box.upper[0] + bar_tick_gap * point, y}, t.label, style);
   }
   style.horizontal = TextStyle::Horizontal::center;
   style.vertical = TextStyle::Vertical::top;
   style.upward = true;
-  canvas.text({box.upper[0] + (tick_gap + label_gap) * point + widest(ticks, canvas, point),
+  canvas.text({box.upper[0] + (bar_tick_gap + bar_label_gap) * point + widest(ticks, canvas, point),
                (top + bottom) / 2},
               axis_label(bar.label, ticks), style);
 }

@@ -11,7 +11,7 @@ namespace {
 // Points.
 constexpr double frame_width = 0.6, tick_length = 3, minor_tick_length = 1.8, tick_gap = 3;
 constexpr double x_tick_gap = 4;  // so that the numbers at the corner of both axes stay apart
-constexpr double label_gap = 4, title_gap = 4, legend_gap = 5, bar_gap = 7;
+constexpr double label_gap = 4, title_gap = 4, key_gap = 5, scale_gap = 7;
 constexpr double label_height = lettering * (0.8 + font_descent);
 constexpr double cell = 1.5;  // of the search for free places
 constexpr double frameless_margin = 2, line_height = 11;
@@ -166,12 +166,12 @@ Margins PanelLayout::margins() const {
   }
   if (panel_.bar_)
     m.right = std::max(m.right,
-                       bar_gap * point_ + color_bar_width(*panel_.bar_, canvas_, point_, room[1]));
+                       scale_gap * point_ + color_bar_width(*panel_.bar_, canvas_, point_, room[1]));
   if (!panel_.entries_.empty() && place_ == LegendPlace::right)
-    m.right += 2 * legend_gap * point_ + legend(0).size()[0];
+    m.right += 2 * key_gap * point_ + legend(0).size()[0];
   if (!panel_.entries_.empty() && place_ == LegendPlace::below) {
     const Vec<2> size = legend(m.left + room[0]).size();
-    m.bottom += legend_gap * point_ + size[1];
+    m.bottom += key_gap * point_ + size[1];
     m.right = std::max(m.right, (size[0] - room[0] - m.left));
   }
   for (const auto& line : panel_.lines_below) {
@@ -215,7 +215,7 @@ void PanelLayout::draw(double letter_left) const {
   canvas_.pop_clip();
   if (panel_.frame) draw_axes();
   if (panel_.bar_)
-    draw_color_bar(*panel_.bar_, canvas_, point_, box_.upper[0] + bar_gap * point_, box_.lower[1],
+    draw_color_bar(*panel_.bar_, canvas_, point_, box_.upper[0] + scale_gap * point_, box_.lower[1],
                    box_.upper[1]);
   draw_references(on_canvas, used);
   for (const auto& content : panel_.unclipped_) content(on_canvas);
@@ -234,7 +234,7 @@ void PanelLayout::draw_lines_below(const Pen& pen) const {
   const double room = m.left + box_.upper[0] - box_.lower[0];
   double y = box_.upper[1] + m.bottom + 2 * point_;
   if (place_ == LegendPlace::below && !panel_.entries_.empty())
-    y += legend_gap * point_ + legend(room).size()[1];
+    y += key_gap * point_ + legend(room).size()[1];
   for (const auto& line : panel_.lines_below) {
     canvas_.text({box_.lower[0] - m.left, y}, line, pen.text(Horizontal::left, Vertical::top));
     y += line_height * point_;
@@ -320,13 +320,13 @@ void PanelLayout::draw_legend(const Pen& pen, const InkCanvas& ink) const {
     const Legend below = legend(room);
     const double left =
         std::max(box_.upper[0] - room, box_.upper[0] - below.size()[0] / 2 - room / 2);
-    below.draw(pen, {left, box_.upper[1] + m.bottom + legend_gap * point_});
+    below.draw(pen, {left, box_.upper[1] + m.bottom + key_gap * point_});
   } else {
     const double bar = panel_.bar_
-                           ? bar_gap * point_ + color_bar_width(*panel_.bar_, canvas_, point_,
+                           ? scale_gap * point_ + color_bar_width(*panel_.bar_, canvas_, point_,
                                                                 box_.upper[1] - box_.lower[1])
                            : 0;
-    legend(0).draw(pen, {box_.upper[0] + std::max(m.right, bar) + 2 * legend_gap * point_ -
+    legend(0).draw(pen, {box_.upper[0] + std::max(m.right, bar) + 2 * key_gap * point_ -
                              frame_width * point_,
                          box_.lower[1]});
   }
