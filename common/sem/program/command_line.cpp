@@ -13,7 +13,7 @@ namespace {
 constexpr const char* commands_text = R"(
   PROGRAM run SCENE [--out DIR] [--set key=value ...]   simulate: frames, history.csv, summary.json
   PROGRAM run SCENE --resume [--out DIR]                go on from the last checkpoint
-  PROGRAM info SCENE [--json]                           sizes, accuracy and all settings, without running
+  PROGRAM info SCENE [--json]                           parts, doubts, accuracy, predicted cost and error; no run
   PROGRAM scenes                                        the built-in scenes, a line each
   PROGRAM export NAME > mine.json                       a built-in scene, to start your own from
   PROGRAM schema                                        every key of a scene file, with units and defaults
@@ -61,6 +61,9 @@ CommandLine read_command_line(const std::string& program, const std::string& abo
   }
   CLI::App app{program + ": " + about, program};
   app.set_version_flag("--version", program + " " + version + " (" + build_type + ")");
+  app.failure_message([&](const CLI::App*, const CLI::Error& error) {
+    return program + ": " + error.what() + "; '" + program + " COMMAND --help' lists the allowed\n";
+  });
   app.require_subcommand(1);
   std::vector<std::string> more_overrides;
   bool no_frames = false;
@@ -98,9 +101,9 @@ CommandLine read_command_line(const std::string& program, const std::string& abo
   add_bare_options(run_command);
   add_overrides(run_command);
   auto* info_command =
-      app.add_subcommand("info", "sizes, accuracy and settings of a scene, without running it");
+      app.add_subcommand("info", "parts, accuracy, predicted cost and error of a scene, without running it");
   info_command->add_option("SCENE", line.scene, scene_help)->required();
-  info_command->add_flag("--json", line.json, "everything, parts included");
+  info_command->add_flag("--json", line.json, "every figure and setting");
   add_bare_options(info_command);
   add_overrides(info_command);
   auto* scenes_command = app.add_subcommand("scenes", "list the built-in scenes");
@@ -128,6 +131,8 @@ CommandLine read_command_line(const std::string& program, const std::string& abo
   for (const auto& word : more_overrides)
     if (word.find('=') == std::string::npos)
       throw InputError("", "OVERRIDES", "'" + word + "'", "key=value, as in analysis.time_step=0.005 (--resume takes no file: it goes on in --out)");
+  if (run_command->count("--out") > 0 && line.folder.empty())
+    throw InputError("", "--out", "an empty name", "a folder");
   line.overrides.insert(line.overrides.end(), more_overrides.begin(), more_overrides.end());
   line.frames = !no_frames;
   line.has_bare = std::any_of(bare_options.begin(), bare_options.end(),

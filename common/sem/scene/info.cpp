@@ -10,6 +10,7 @@
 #include "sem/base/stopwatch.h"
 #include "sem/scene/accuracy.h"
 #include "sem/scene/accuracy_goal.h"
+#include "sem/scene/info_text.h"
 #include "sem/scene/json_text.h"
 #include "sem/scene/read_scene.h"
 #include "sem/scene/summary.h"
@@ -26,12 +27,17 @@ double seconds_of(const std::function<void()>& work) {
   return watch.seconds();
 }
 
-// How often the analysis makes a Hessian and a factorisation. Newton's method: 5 iterations from rest, 3 in a
-// step of time are usual.
-double n_factorizations(const Analysis& analysis, const System& system) {
+// How often the analysis makes a Hessian and a factorisation. Newton's method: 5 iterations from rest are usual, 20
+// where a material has a pressure of its own; 3 in a step of time.
+template <int Dim>
+double n_factorizations(const Scene<Dim>& scene, const System& system) {
+  const Analysis& analysis = scene.analysis;
   const bool once = system.potential->quadratic();
+  const bool pressure = std::any_of(scene.solids.begin(), scene.solids.end(), [&](const auto& solid) {
+    return has_own_pressure(scene.method, solid.material);
+  });
   switch (analysis.kind) {
-    case AnalysisKind::statics: return once ? 1 : 5 * analysis.load_steps;
+    case AnalysisKind::statics: return once ? 1 : (pressure ? 20 : 5) * analysis.load_steps;
     case AnalysisKind::modes: return 1;
     case AnalysisKind::dynamics: break;
   }
@@ -66,7 +72,7 @@ void add_tangent(const Scene<Dim>& scene, const Model<Dim>& model, Json& json) {
   // The eigenvalue problem beside its factorisation of n^3 / 3: reduction 2 n^3, tridiagonalisation 4/3 n^3,
   // QR iteration with vectors 6 n^3.
   const double eigen = scene.analysis.kind == AnalysisKind::modes ? 28 * factorization : 0;
-  const double n = n_factorizations(scene.analysis, system);
+  const double n = n_factorizations(scene, system);
   json["predicted"] = {{"factorizations", n},
                        {"seconds_of_an_assembly", assembly},
                        {"seconds_of_a_factorization", factorization},
@@ -168,38 +174,12 @@ Json info_json(const Scene<Dim>& scene, const Model<Dim>& model, const std::stri
   return json;
 }
 
-// Lines "key: value", indented; items of a list as [0], [1], ... as --set names them.
-void append_lines(const Json& json, int indent, std::string& text) {
-  for (const auto& [key, value] : json.items()) {
-    text += std::string(indent, ' ') + (json.is_array() ? "[" + key + "]" : key) + ":";
-    const bool nested = value.is_object() || (value.is_array() && !value.empty() && value[0].is_structured());
-    if (nested) {
-      text += "\n";
-      append_lines(value, indent + 2, text);
-    } else if (value.is_number_float()) {
-      char number[40];
-      std::snprintf(number, sizeof number, " %.6g\n", value.get<double>());
-      text += number;
-    } else {
-      text += ' ';
-      text += value.is_string() ? value.get<std::string>() : value.dump();
-      text += '\n';
-    }
-  }
-}
-
 }  // namespace
 
 template <int Dim>
 std::string model_info(const Scene<Dim>& scene, const Model<Dim>& model, bool json, const std::string& file) {
-  Json info = info_json(scene, model, file);
-  if (json) return json_text(info);
-  for (auto& solid : info["settings"]["solids"])  // the parts would hide all the rest
-    solid["parts"] = std::to_string(solid["parts"].size()) + " parts (shown by --json)";
-  info["part_list"] = "shown by --json";
-  std::string text;
-  append_lines(info, 0, text);
-  return text;
+  const Json info = info_json(scene, model, file);
+  return json ? json_text(info) : info_text(info, Dim);
 }
 
 template std::string model_info<2>(const Scene<2>&, const Model<2>&, bool, const std::string&);

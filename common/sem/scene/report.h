@@ -4,7 +4,6 @@
 #include "sem/scene/accuracy.h"
 #include "sem/scene/analysis.h"
 #include "sem/scene/estimate.h"
-#include "sem/scene/estimate.h"
 #include "sem/scene/files.h"
 #include "sem/scene/monitor.h"
 
