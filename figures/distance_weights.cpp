@@ -46,7 +46,7 @@ void draw(Plot& plot, const Data& data) {
       draw_parts(panel, data, i);
     }
   plot.row_titles = {"θ published", "θ draft (eq. 25)", "w published"};
-  plot.column_titles = {"of the red curve", "of the blue curve", "of the green curve"};
+  plot.column_titles = {"of the orange curve", "of the blue curve", "of the green curve"};
   plot.color_bar(scale, "weight");
 }
 

@@ -239,7 +239,7 @@ TEST_CASE_TEMPLATE("program info for people, schema, version and help", T, D2, D
   CHECK(info.code == 0);
   CHECK(info.out.find("unknowns:  " + std::to_string(Sem<Dim>::n_unknowns) + ", ") !=
         std::string::npos);
-  CHECK(info.out.find("predicted: analysis ") != std::string::npos);  // a default
+  CHECK(info.out.find("predicted: analysis ") != std::string::npos);
   const Outcome schema = call<Dim>(folder, "schema");
   CHECK(schema.code == 0);
   for (const char* key : {"solids: ", "youngs_modulus: ", "shape: ", Sem<Dim>::schema_word, "Pa"})

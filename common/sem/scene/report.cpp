@@ -110,6 +110,9 @@ class Report {
     if (a.uncovered_share > doubtful_share)
       add("warning:  %.2g %% of the %s is out of all parts' reach and follows the closest one; raise method.weights.cutoff\n",
           100 * a.uncovered_share, volume);
+    const auto weights = run_.scene.method.weights.variant;
+    if (condensed && (weights == DistanceWeight::published || weights == DistanceWeight::draft))
+      add("%s", "warning:  weights found by rays jump inside the solid, which takes many points and does not converge; method.weights.distance \"sided\" does\n");
     if (run_.folded_share > 0)
       add("warning:  the map is folded at the end: %.2g %% of the %s is turned inside out, its strains mean nothing; %s\n",
           100 * run_.folded_share, volume,
