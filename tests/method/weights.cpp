@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "dims.h"
 #include "sem/method/discretization.h"
 #include "sem/method/line_rules.h"
 #include "solids.h"
@@ -12,21 +13,37 @@ using test::Parts;
 
 namespace {
 
-struct Body {
-  Boundary<2> boundary;
-  Loops<2> loops;
-  explicit Body(const Parts<2>& parts) : boundary(make_boundary<2>({parts})), loops(find_loops(boundary)) {}
+template <int Dim>
+struct BodyIn {
+  Boundary<Dim> boundary;
+  Loops<Dim> loops;
+  explicit BodyIn(const Parts<Dim>& parts) : boundary(make_boundary<Dim>({parts})), loops(find_loops(boundary)) {}
 
-  // theta of all parts at X.
-  Eigen::VectorXd theta(const Vec<2>& X, DistanceWeight variant, double cutoff) const {
+  DistanceWeights<Dim> weights(const Vec<Dim>& X, DistanceWeight variant, double cutoff) const {
     WeightOptions options;
     options.cutoff = cutoff;
-    const auto weights = distance_weights(measure_distances<2>(boundary, loops, X, variant, cutoff), options);
+    const auto distances = measure_distances<Dim>(boundary, loops, X, variant, cutoff);
+    auto theta = distance_weights(distances, options);
+    distance_weight_gradients<Dim>(boundary, X, distances, theta);
+    return theta;
+  }
+  // theta of all parts at X.
+  Eigen::VectorXd theta(const Vec<Dim>& X, DistanceWeight variant, double cutoff) const {
+    const auto found = weights(X, variant, cutoff);
     Eigen::VectorXd result = Eigen::VectorXd::Zero(boundary.n_parts());
-    for (size_t e = 0; e < weights.part.size(); ++e) result[weights.part[e]] = weights.theta[e];
+    for (size_t e = 0; e < found.part.size(); ++e) result[found.part[e]] = found.theta[e];
+    return result;
+  }
+  // Its gradients, a row each.
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> gradients(const Vec<Dim>& X, DistanceWeight variant, double cutoff) const {
+    const auto found = weights(X, variant, cutoff);
+    Eigen::Matrix<double, Eigen::Dynamic, Dim> result(boundary.n_parts(), Dim);
+    result.setZero();
+    for (size_t e = 0; e < found.part.size(); ++e) result.row(found.part[e]) = found.gradient[e];
     return result;
   }
 };
+using Body = BodyIn<2>;
 
 constexpr auto published = DistanceWeight::published;
 constexpr auto draft = DistanceWeight::draft;
@@ -59,7 +76,7 @@ TEST_CASE("draft: opposite sides never blend, and all vanish midway, whatever al
 
 TEST_CASE("on a part its theta is 1 and all others vanish; at a joint both parts have 1") {
   const Body box(test::unit_box<2>(3));
-  for (const auto variant : {published, draft, distance_only}) {
+  for (const auto variant : {published, draft}) {
     const auto on_edge = box.theta({0.5, 0}, variant, 5);
     CHECK(on_edge[1] == 1);
     CHECK(on_edge.sum() == 1);
@@ -69,6 +86,20 @@ TEST_CASE("on a part its theta is 1 and all others vanish; at a joint both parts
     CHECK(at_joint.sum() == 2);
     // Near a joint on a straight edge the neighbour is in line with X: still 0.
     CHECK(box.theta({1.0 / 3 + 1e-3, 0}, variant, 5).sum() == 1);
+  }
+}
+
+TEST_CASE_TEMPLATE("weights without rays and their gradients are continuous up to the boundary", T, D2, D3) {
+  constexpr int Dim = T::value;
+  const BodyIn<Dim> box(test::unit_box<Dim>(2));
+  Vec<Dim> X = Vec<Dim>::Constant(0.3);
+  X[Dim - 1] = 0;
+  const Vec<Dim> inside = X + 1e-6 * Vec<Dim>::Unit(Dim - 1);
+  for (const auto variant : {distance_only, DistanceWeight::sided}) {
+    const auto on = box.gradients(X, variant, 2), beside = box.gradients(inside, variant, 2);
+    CHECK((on - beside).cwiseAbs().maxCoeff() < 1e-4);
+    CHECK(beside.cwiseAbs().maxCoeff() > 0.1);
+    CHECK((box.theta(X, variant, 2) - box.theta(inside, variant, 2)).cwiseAbs().maxCoeff() < 1e-5);
   }
 }
 

@@ -99,6 +99,9 @@ template <int Dim>
 Vec<Dim> theta_gradient(const Boundary<Dim>& boundary, const Distances<Dim>& distances, int pair,
                         const Vec<Dim>& X, double cutoff, bool draft) {
   const double d = distances.closest[pair], reach = distances.reach[pair];
+  if (d == 0 && distances.variant == DistanceWeight::distance_only)
+    return distances.outward[distances.part[pair]] / cutoff *
+           unit_normal(boundary.parts[distances.part[pair]].nurbs, distances.foot_u[pair]);
   if (d == 0) return Vec<Dim>::Zero();
   const Vec<Dim> n = (X - distances.foot[pair]) / d;
   if (!(reach < cutoff)) return -n / cutoff;

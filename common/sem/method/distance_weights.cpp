@@ -60,12 +60,15 @@ class Meter {
       for (auto& pair : pairs) find_side(X, pair);
       return;
     }
+    if (variant_ == DistanceWeight::distance_only) {
+      for (auto& pair : pairs) pair.hit_part = -1;
+      return;
+    }
     if (on_boundary) {
       std::erase_if(pairs, [](const auto& pair) { return pair.hit_part != pair.part; });
       for (auto& pair : pairs) pair.hit_part = -1;
       return;
     }
-    if (variant_ == DistanceWeight::distance_only) return;
     for (auto& pair : pairs)
       if (pair.closest > 0) shoot(X, pair);
     std::erase_if(pairs, [&](const auto& pair) { return !(pair.closest < pair.reach); });
@@ -143,7 +146,7 @@ Distances<Dim> measure_distances(const Boundary<Dim>& boundary, const Loops<Dim>
   distances.variant = variant;
   distances.n_points = n;
   distances.n_parts = boundary.n_parts();
-  if (variant == DistanceWeight::sided) distances.outward = loops.orientation;
+  distances.outward = loops.orientation;
   distances.begin.push_back(0);
   for (const auto& row : rows) {
     for (const auto& pair : row) {

@@ -30,7 +30,7 @@ template <int Dim>
 struct Distances {
   DistanceWeight variant = DistanceWeight::published;
   int n_points = 0, n_parts = 0;
-  std::vector<int> outward;      ///< #parts: Loops::orientation (sided)
+  std::vector<int> outward;      ///< #parts: Loops::orientation
   std::vector<int> begin;        ///< #points + 1: pairs of a point
   std::vector<int> part;         ///< #pairs
   std::vector<double> closest;   ///< #pairs: |X - X*|
@@ -58,8 +58,8 @@ struct Distances {
 /// the joint. No hit: reach is infinite, only alpha counts. Inside a closed
 /// part that is a loop by itself theta_i = 1 (the published text's rule, for
 /// the variants with a ray): reach and alpha are ignored, closest is set to 0.
-/// Sided: no Kronecker property; on a part all others keep their theta, so that theta is continuous
-/// up to the boundary. A part does not reach what lies behind it: nothing is seen through a gap that
+/// Distance only and sided: no Kronecker property; on a part all others keep their theta, so that theta is continuous
+/// up to the boundary. Sided: a part does not reach what lies behind it: nothing is seen through a gap that
 /// is thinner than the limb beside it, as long as alpha is below the width of limb and gap.
 template <int Dim>
 Distances<Dim> measure_distances(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
@@ -91,9 +91,8 @@ DistanceWeights<Dim> distance_weights(const Distances<Dim>& distances, const Wei
 /// X* moves by C = T A^-1 T^T with the tangents T of the directions in which the foot is free to move and
 /// A_ab = X_a . X_b - (X - X*) . X_ab (zero for a foot at a corner or an end of its part); the hit Y =
 /// X* + r n stays on the surface with normal N, hence grad r = -(C + r dn/dX)^T N / (N . n), and
-/// reach = r (published) or r - d (draft). Zero where theta is 1 by a rule: on a part, where it has only
-/// one-sided derivatives, and inside a closed part. Sided (sided_weight.h): on a part n is its
-/// inner normal, the limit from inside.
+/// reach = r (published) or r - d (draft). Zero where theta is 1 by a rule: on a part and inside a closed part. Distance only
+/// and sided (sided_weight.h): on a part n is its inner normal, the limit from inside.
 template <int Dim>
 void distance_weight_gradients(const Boundary<Dim>& boundary, const Points<Dim>& position,
                                const Distances<Dim>& distances, DistanceWeights<Dim>& theta);
