@@ -84,7 +84,7 @@ void draw(Plot& plot, const Data& data) {
   Panel &count = plot.panel(0, 0), &time = plot.panel(0, 1);
   count.x = time.x = {.label = "unknowns", .lower = 100, .upper = 2e4, .logarithmic = true};
   count.y = {.label = "entries", .lower = 1e4, .upper = 2e8, .logarithmic = true};
-  time.y = {.label = "time (s)", .lower = 3e-5, .upper = 50, .logarithmic = true};
+  time.y = {.label = "time (s)", .lower = 1e-5, .upper = 50, .logarithmic = true};
   count.title = "Matrices";
   time.title = "A step";
   std::vector<double> square;

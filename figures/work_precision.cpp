@@ -225,7 +225,7 @@ void draw(Plot& plot, const Data& data) {
     panel.title = bodies()[b].title;
     panel.x = {.label = "time of one thread (s)", .lower = 2e-4, .upper = 5, .logarithmic = true};
     panel.y = {.label = b == 0 ? "relative error of the tip" : "",
-               .lower = 1e-5,
+               .lower = 1e-6,
                .upper = 5,
                .logarithmic = true,
                .tick_labels = b == 0};

@@ -56,7 +56,7 @@ Data compute() {
 void draw(Plot& plot, const Data& data) {
   using enum MarkerShape;
   Panel& panel = plot.panel(0, 0);
-  panel.x = {.label = "time of one thread (s)", .lower = 5e-3, .upper = 20, .logarithmic = true};
+  panel.x = {.label = "time of one thread (s)", .lower = 2e-3, .upper = 20, .logarithmic = true};
   panel.y = {.label = "relative error of the sag", .lower = 5e-4, .upper = 1, .logarithmic = true};
   const Series styles[] = {
       {.label = "projected (the paper's), n = 2", .color = colors::gray, .marker = circle},

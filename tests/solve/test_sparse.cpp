@@ -117,6 +117,11 @@ TEST_CASE("products, sums and entries of a matrix in panels are those of the den
     CHECK((M * x - expanded * x).norm() < 1e-13 * expanded.norm());
     M.absolute_product(x, y);
     CHECK((y - expanded.cwiseAbs() * x.cwiseAbs()).norm() < 1e-13 * expanded.norm());
+    SymmetricMatrix combined(plan, components);
+    combined.set_sum(2, A, 0.5, M);
+    CHECK((combined.dense() - 2 * dense - 0.5 * expanded).norm() < 1e-14 * dense.norm());
+    combined.set_sum(2, A, -1, A);
+    CHECK((combined.dense() - dense).norm() < 1e-14 * dense.norm());
     A.add(0.5, M);
     CHECK((A.dense() - dense - 0.5 * expanded).norm() < 1e-14 * dense.norm());
     // Local matrices, nodes in any order.
@@ -200,6 +205,15 @@ TEST_CASE("the kernels of all sets of instructions agree with plain products") {
       kernels->weigh_rows(weighed.data(), k, factors, n_factors, G.data(), n_factors * k, k, n);
       CHECK((weighed - sum).norm() < 1e-14);
     }
+    MatrixXd panel(n + m, n);  // what stands above the diagonal is not read
+    panel << factor, C;
+    panel.topRows(n).triangularView<Eigen::StrictlyUpper>().setConstant(1e3);
+    const MatrixXd whole = MatrixXd(factor.triangularView<Eigen::StrictlyLower>()).transpose() + factor;
+    const VectorXd x = VectorXd::Random(n), u = VectorXd::Random(m), before = VectorXd::Random(n);
+    VectorXd y = before, v = VectorXd::Constant(m, 9);
+    kernels->multiply_panel(panel.data(), n + m, n, m, x.data(), u.data(), y.data(), v.data());
+    CHECK((y - (before + whole * x + C.transpose() * u)).norm() < 1e-12);
+    CHECK((v - C * x).norm() < 1e-12);
     S(n - 1, n - 1) = -1;
     CHECK_FALSE(kernels->cholesky(S.data(), n, n));
   }

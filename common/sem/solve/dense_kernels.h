@@ -23,6 +23,9 @@ struct DenseKernels {
   void (*add_lower_product)(double* C, int ld_c, const double* A, int ld_a, const double* B, int ld_b, int n, int k);
   /// C = sum_d diag(factor_d) A_d, m by n, A the A_d one below the other, n_factors m by n.
   void (*weigh_rows)(double* C, int ld_c, const double* const* factors, int n_factors, const double* A, int ld_a, int m, int n);
+  /// A panel of a symmetric matrix times a vector: the n by n A above the m by n B, of A the lower triangle read;
+  /// y += A x + B^T u, v = B x.
+  void (*multiply_panel)(const double* A, int ld, int n, int m, const double* x, const double* u, double* y, double* v);
 };
 
 /// Those that this processor runs, the fastest last.

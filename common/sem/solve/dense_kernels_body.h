@@ -64,8 +64,20 @@ void weigh_rows(double* C, int ld_c, const double* const* factors, int n_factors
   }
 }
 
+void multiply_panel(const double* A, int ld, int n, int m, const double* x, const double* u, double* y, double* v) {
+  using Vector = Eigen::Map<Eigen::VectorXd>;
+  using ConstVector = Eigen::Map<const Eigen::VectorXd>;
+  const auto own = view(A, n, n, ld), below = view(A + n, m, n, ld);
+  const ConstVector at_own(x, n), at_below(u, m);
+  Vector sum(y, n);
+  sum.noalias() += own.selfadjointView<Eigen::Lower>() * at_own;
+  if (m == 0) return;
+  sum.noalias() += below.transpose() * at_below;
+  Vector(v, m).noalias() = below * at_own;
+}
+
 }  // namespace
 
-const DenseKernels SEM_KERNELS{SEM_KERNEL_NAME, cholesky, solve_right, add_scaled_product, add_product, add_lower_product, weigh_rows};
+const DenseKernels SEM_KERNELS{SEM_KERNEL_NAME, cholesky, solve_right, add_scaled_product, add_product, add_lower_product, weigh_rows, multiply_panel};
 
 }  // namespace sem::detail

@@ -198,9 +198,7 @@ Status TimeStepper::factorize(double dt) {
 }
 
 bool TimeStepper::factorize_matrix(double dt) {
-  matrix_ = stiffness_;
-  matrix_ *= theta_ * theta_ * dt * dt;
-  matrix_.add(1, system_.mass);
+  matrix_.set_sum(theta_ * theta_ * dt * dt, stiffness_, 1, system_.mass);
   return counters_.factorizations.run(cholesky_.factor_work(),
                                       [&] { return cholesky_.compute(matrix_); });
 }

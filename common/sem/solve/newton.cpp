@@ -50,8 +50,8 @@ double Newton::evaluate(const IncrementProblem& problem, const Eigen::VectorXd& 
 void Newton::assemble(double inertia, bool project_psd) {
   counters_.hessians.run(work_of_.hessian, [&] { system_.potential->hessian(z_, project_psd, hessian_); });
   if (project_psd) ++counters_.n_psd_projections;
-  matrix_ = hessian_;
-  if (inertia > 0) matrix_.add(inertia, system_.mass);
+  if (inertia > 0) matrix_.set_sum(1, hessian_, inertia, system_.mass);
+  else matrix_ = hessian_;
 }
 
 bool Newton::factorize() {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "sem/solve/dense_kernels.h"
+
 namespace sem {
 
 using Eigen::MatrixXd;
@@ -79,6 +81,26 @@ void SymmetricMatrix::set(const MatrixXd& dense) {
 SymmetricMatrix& SymmetricMatrix::operator*=(double factor) {
   values_ *= factor;
   return *this;
+}
+
+void SymmetricMatrix::set_sum(double a, const SymmetricMatrix& A, double b, const SymmetricMatrix& B) {
+  assert(A.size() == size() && A.components_ == components_);
+  assert(B.plan_ == plan_ || (plan_->panels.size() <= 1 && B.plan_->panels.size() <= 1));
+  if (B.values_.size() == values_.size()) {
+    values_ = a * A.values_ + b * B.values_;
+    return;
+  }
+  const int C = components_;
+  for (int p = 0; p < int(plan_->panels.size()); ++p) {
+    const auto first = A.panel(p), second = B.panel(p);
+    auto target = panel(p);
+    for (int j = 0; j < second.cols(); ++j)
+      for (int c = 0; c < C; ++c) {
+        auto column = target.col(C * j + c);
+        column = a * first.col(C * j + c);
+        for (int i = j; i < second.rows(); ++i) column[C * i + c] += b * second(i, j);
+      }
+  }
 }
 
 void SymmetricMatrix::add(double factor, const SymmetricMatrix& other) {
@@ -181,13 +203,9 @@ void SymmetricMatrix::multiply(const VectorXd& x, VectorXd& y) const {
     const auto A = this->panel(p);
     const int first = C * panel.begin, width = C * panel.width(), below = C * int(panel.rows.size());
     for (size_t r = 0; r < panel.rows.size(); ++r) rows.middleRows(C * r, C) = in.middleRows(C * panel.rows[r], C);
-    for (int b = 0; b < k; ++b) {
-      const auto own = in.col(b).segment(first, width);
-      auto own_sum = out.col(b).segment(first, width);
-      own_sum.noalias() += A.topRows(width).selfadjointView<Eigen::Lower>() * own;
-      own_sum.noalias() += A.bottomRows(below).transpose() * rows.col(b).head(below);
-      row_sums.col(b).head(below).noalias() = A.bottomRows(below) * own;
-    }
+    for (int b = 0; b < k; ++b)
+      dense_kernels().multiply_panel(A.data(), int(A.rows()), width, below, &in(first, b), rows.col(b).data(), &out(first, b),
+                                     row_sums.col(b).data());
     for (size_t r = 0; r < panel.rows.size(); ++r) out.middleRows(C * panel.rows[r], C) += row_sums.middleRows(C * r, C);
   }
   y.resize(x.size());

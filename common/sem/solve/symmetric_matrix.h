@@ -28,6 +28,8 @@ class SymmetricMatrix {
   /// The entries that the plan has room for.
   void set(const Eigen::MatrixXd& dense);
   SymmetricMatrix& operator*=(double factor);
+  /// = a A + b B in one pass; A of the same plan and components, B as in add.
+  void set_sum(double a, const SymmetricMatrix& A, double b, const SymmetricMatrix& B);
   /// += factor * other, of the same plan or both dense; where that has one component, of its Kronecker product
   /// with the identity of this one's components.
   void add(double factor, const SymmetricMatrix& other);
