@@ -223,7 +223,7 @@ void draw(Plot& plot, const Data& data) {
   for (int b = 0; b < 2; ++b) {
     Panel& panel = plot.panel(0, b);
     panel.title = bodies()[b].title;
-    panel.x = {.label = "time of one thread (s)", .lower = 2e-4, .upper = 5, .logarithmic = true};
+    panel.x = {.label = "time of one thread (s)", .lower = 1e-4, .upper = 5, .logarithmic = true};
     panel.y = {.label = b == 0 ? "relative error of the tip" : "",
                .lower = 1e-6,
                .upper = 5,
