@@ -208,38 +208,9 @@ MatrixXd boundary_output(const Samples<Dim>& samples, const Map<Dim>& on_boundar
   return S;
 }
 
-template <int Dim>
-double satisfy_divergence_theorem(Map<Dim>& interior, const VectorXd& volume, const Points<Dim>& flux) {
-  Points<Dim> missing = flux;
-  VectorXd support = VectorXd::Zero(interior.n_columns);
-  for (const auto& block : interior.blocks) {
-    const VectorXd v = volume(block.points);
-    for (size_t j = 0; j < block.columns.size(); ++j) {
-      support[block.columns[j]] += v.sum();
-      for (int a = 0; a < Dim; ++a) missing(a, block.columns[j]) -= v.dot(block.gradient[a].col(j));
-    }
-  }
-  // Columns 0 to Dim are 1 and X / size: their gradients are exact, what is missing is the boundary's fault.
-  const double total = volume.sum();
-  const double slope = std::abs(flux(0, 1) - missing(0, 1)) / total;  // 1 / size
-  if (!(missing.leftCols(Dim + 1).cwiseAbs().maxCoeff() <= 1e-3 * slope * total))
-    return std::numeric_limits<double>::infinity();
-  double largest = 0;
-  for (auto& block : interior.blocks)
-    for (size_t j = 0; j < block.columns.size(); ++j) {
-      const int column = block.columns[j];
-      if (column <= Dim || !(support[column] > 0)) continue;
-      const Vec<Dim> correction = missing.col(column) / support[column];
-      largest = std::max(largest, correction.norm() * std::pow(support[column], 1.0 / Dim));
-      for (int a = 0; a < Dim; ++a) block.gradient[a].col(j).array() += correction[a];
-    }
-  return largest;
-}
-
 #define SEM_INSTANTIATE(Dim)                                                                       \
   template FreeCoefficients<Dim> free_coefficients<Dim>(const Points<Dim>&, const VectorXd&,       \
                                                         const BlendingWeights<Dim>&, int, double); \
-  template double satisfy_divergence_theorem<Dim>(Map<Dim>&, const VectorXd&, const Points<Dim>&);    \
   template BlendedField<Dim> blended_field<Dim>(const Points<Dim>&, const VectorXd&,               \
                                                 const BlendingWeights<Dim>&, int, double);         \
   template MatrixXd boundary_output<Dim>(const Samples<Dim>&, const Map<Dim>&, int);

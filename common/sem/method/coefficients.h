@@ -53,14 +53,4 @@ template <int Dim>
 Eigen::MatrixXd boundary_output(const Samples<Dim>& samples, const Map<Dim>& on_boundary,
                                 int n_controls);
 
-/// Makes the gradients of a map satisfy the divergence theorem on its points,
-///   sum_k v_k grad phi_j(X_k) = int phi_j N da   for every unknown j,
-/// by adding the same vector at all points where phi_j acts. Without it a rule's error in grad w is a spurious
-/// load even in a state of uniform stress (integration constraint: Chen, Hillman, Rueter 2013); with it such
-/// states are exact to rounding. `flux`: int phi_j N da, Dim by n_columns. Returns the largest correction times
-/// the size of its support to the power 1/Dim; corrects nothing and returns infinity if the rows of the
-/// affine field themselves violate the theorem by more than 1e-3 (a boundary with gaps or overlaps).
-template <int Dim>
-double satisfy_divergence_theorem(Map<Dim>& interior, const Eigen::VectorXd& volume, const Points<Dim>& flux);
-
 }  // namespace sem

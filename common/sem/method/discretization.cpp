@@ -106,15 +106,6 @@ void choose_coefficients(Discretization<Dim>& d) {
   d.unknowns = std::move(free.unknowns);
 }
 
-template <int Dim>
-double correct_gradients(Discretization<Dim>& d) {
-  const BoundaryRule<Dim> rule = boundary_rule(d);
-  Points<Dim> area = rule.normal;
-  for (int s = 0; s < rule.samples.size(); ++s) area.col(s) *= rule.samples.weight[s];
-  const Map<Dim> map = map_at(d, rule.samples.position, false);
-  return satisfy_divergence_theorem(d.interior, d.quadrature.weight, evaluate_transposed(map, area));
-}
-
 // Patches with fewer points than twice the coefficients of a polynomial are left out.
 template <int Dim>
 void drop_unresolved_patches(Discretization<Dim>& d) {
@@ -270,8 +261,6 @@ Discretization<Dim> discretize(const std::vector<std::vector<Nurbs<Dim - 1, Dim>
   d.on_boundary =
       timed(d.cost, "boundary map", [&] { return map_at(d, d.samples.position, false); });
   if (options.formulation == Formulation::condensed)
-    d.divergence_correction = timed(d.cost, "divergence theorem", [&] { return correct_gradients(d); });
-  if (options.formulation == Formulation::condensed)
     d.unknowns.S = boundary_output(d.samples, d.on_boundary, d.boundary.n_controls());
   if (options.formulation == Formulation::condensed) follow(d.followers, d.unknowns.S);
   if (options.kept_columns < 0)
@@ -295,6 +284,7 @@ BoundaryRule<Dim> boundary_rule(const Discretization<Dim>& d) {
   }
   BoundaryRule<Dim> rule;
   rule.samples = sample_boundary(d.boundary, options);
+  if (d.boundary_factor.size() > 0) rule.samples.weight.array() *= d.boundary_factor.array();
   rule.normal.resize(Dim, rule.samples.size());
   for (int s = 0; s < rule.samples.size(); ++s) {
     const int part = rule.samples.part[s];

@@ -79,7 +79,7 @@ struct Discretization {
   Unknowns<Dim> unknowns;
   Map<Dim> interior;     ///< value and gradient at the quadrature points
   Map<Dim> on_boundary;  ///< value at the boundary samples
-  double divergence_correction = 0;  ///< condensed: see satisfy_divergence_theorem
+  Eigen::VectorXd boundary_factor;  ///< of boundary_rule's weights; empty: 1. See mechanics/consistent_weights.h
   PruneReport pruning;   ///< kept = 0: not asked for
   std::vector<StageCost> cost;
 };

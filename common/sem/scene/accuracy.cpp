@@ -101,7 +101,7 @@ Accuracy<Dim> measure_accuracy(const Model<Dim>& model) {
     a.n_borrowed += fit.borrowed;
   }
   a.pruning_error = d.pruning.relative_error;
-  a.divergence_correction = d.divergence_correction;
+  a.divergence_defect = model.divergence_defect;
   return a;
 }
 
@@ -131,7 +131,7 @@ double folded_share(const Model<Dim>& model, const Eigen::VectorXd& z) {
 }
 
 template <int Dim>
-std::vector<StageError> stage_errors(const Discretization<Dim>& d, const Accuracy<Dim>& a) {
+std::vector<StageError> stage_errors(const std::vector<StageCost>& cost, const Accuracy<Dim>& a) {
   const std::vector<StageError> all = {
       {"loops", a.gap_share, "share of the inside that ends at closed gaps"},
       {"rays", a.unpaired_share, "share of rays with a hit that found no partner"},
@@ -143,11 +143,11 @@ std::vector<StageError> stage_errors(const Discretization<Dim>& d, const Accurac
       {"coefficients", a.identity_error, "largest |x(X) - X| of the body at rest, by its size"},
       {"interior map", a.identity_gradient_error, "largest |F - 1| of the body at rest"},
       {"boundary map", a.boundary_map_error, "largest |x(X) - X| of the boundary at rest, by the size"},
-      {"divergence theorem", a.divergence_correction, "what had to be corrected, of the gradients"},
+      {"divergence theorem", a.divergence_defect, "largest defect before weights were adjusted, by its terms"},
       {"pruning", a.pruning_error, "of the map, by its norm"}};
   std::vector<StageError> done;
   for (const auto& line : all)
-    for (const auto& stage : d.cost)
+    for (const auto& stage : cost)
       if (stage.stage == line.stage) done.push_back(line);
   return done;
 }
@@ -193,10 +193,10 @@ nlohmann::ordered_json to_json(const Accuracy<Dim>& a) {
                              "orientation or overlapping solids)";
   }
   if (a.report.error > 0) rule["estimated_error"] = a.report.error;
-  if (std::isinf(a.divergence_correction))
-    rule["divergence_correction"] = "not applied: gaps or overlaps";
-  else if (a.divergence_correction > 0)
-    rule["divergence_correction"] = a.divergence_correction;
+  if (std::isinf(a.divergence_defect))
+    rule["divergence_defect"] = "not removed: gaps, overlaps or too few points";
+  else if (a.divergence_defect > 0)
+    rule["divergence_defect"] = a.divergence_defect;
   if (!a.report.components.empty()) {
     for (const auto& component : a.report.components)
       rule["components"].push_back({{"rule", component.rule},
@@ -225,8 +225,8 @@ template Accuracy<2> measure_accuracy<2>(const Model<2>&);
 template Accuracy<3> measure_accuracy<3>(const Model<3>&);
 template double folded_share<2>(const Model<2>&, const Eigen::VectorXd&);
 template double folded_share<3>(const Model<3>&, const Eigen::VectorXd&);
-template std::vector<StageError> stage_errors<2>(const Discretization<2>&, const Accuracy<2>&);
-template std::vector<StageError> stage_errors<3>(const Discretization<3>&, const Accuracy<3>&);
+template std::vector<StageError> stage_errors<2>(const std::vector<StageCost>&, const Accuracy<2>&);
+template std::vector<StageError> stage_errors<3>(const std::vector<StageCost>&, const Accuracy<3>&);
 template nlohmann::ordered_json to_json<2>(const Accuracy<2>&);
 template nlohmann::ordered_json to_json<3>(const Accuracy<3>&);
 

@@ -34,7 +34,7 @@ struct Accuracy {
   double unpaired_share = 0;          ///< of the rays
   double worst_fit_condition = 0;     ///< over the parts' linear fits
   int n_borrowed = 0;                 ///< parts whose linear fit borrowed from their origin's set
-  double divergence_correction = 0;   ///< condensed: see satisfy_divergence_theorem
+  double divergence_defect = 0;       ///< condensed: Model::divergence_defect
   double pruning_error = 0;           ///< draft eq. 14, 0 without
 };
 
@@ -54,7 +54,7 @@ double folded_share(const Model<Dim>& model, const Eigen::VectorXd& z);
 
 /// One line for each stage that has run and can err; stages that are exact or that nothing measures have none.
 template <int Dim>
-std::vector<StageError> stage_errors(const Discretization<Dim>& discretization, const Accuracy<Dim>& accuracy);
+std::vector<StageError> stage_errors(const std::vector<StageCost>& cost, const Accuracy<Dim>& accuracy);
 
 /// As it stands in summary.json and `info --json`.
 template <int Dim>

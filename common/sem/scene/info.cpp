@@ -169,7 +169,7 @@ Json info_json(const Scene<Dim>& scene, const Model<Dim>& model, const std::stri
   add_tangent(scene, model, json);
   json["predicted"]["relative_error_of_linear_response"] = predicted_error(scene, file);
   json["memory_MB"] = megabytes(model);
-  json["stages"] = stages_json(model.cost, stage_errors(d, accuracy));
+  json["stages"] = stages_json(model.cost, stage_errors(model.cost, accuracy));
   scene_to_json(scene, json["settings"]);
   return json;
 }

@@ -8,6 +8,7 @@
 
 #include "sem/base/error.h"
 #include "sem/base/stopwatch.h"
+#include "sem/mechanics/consistent_weights.h"
 #include "sem/mechanics/loads.h"
 #include "sem/mechanics/quadratic_forms.h"
 #include "sem/method/material_weights.h"
@@ -33,6 +34,7 @@ class Builder {
   std::unique_ptr<Model<Dim>> build() {
     model_ = std::make_unique<Model<Dim>>();
     discretize_parts();
+    if (condensed()) timed("divergence theorem", [&] { balance_weights(); });
     timed("materials", [&] { assign_materials(); });
     pins_.emplace(scene_, parts_, file_, model_->discretization);
     timed("operators", [&] { make_operators(); });
@@ -69,6 +71,14 @@ class Builder {
     options.near_differences = scene_.pins.empty();  // pins take control points out of the system one by one
     model_->discretization = discretize<Dim>(solids, options, trims);
     model_->cost = model_->discretization.cost;
+  }
+
+  void balance_weights() {
+    auto& d = model_->discretization;
+    const ConsistentWeights weights = consistent_weights(d);
+    model_->divergence_defect = weights.reached ? weights.defect : std::numeric_limits<double>::infinity();
+    d.boundary_factor = weights.boundary.cwiseQuotient(boundary_rule(d).samples.weight);
+    d.quadrature.weight = weights.interior;
   }
 
   // Young's modulus at every part; empty if they are alike within each solid.

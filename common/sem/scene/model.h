@@ -18,6 +18,7 @@ struct Model {
   Model& operator=(const Model&) = delete;
 
   Discretization<Dim> discretization;
+  double divergence_defect = 0;     ///< condensed: that of the rule alone (consistent_weights.h); infinity: weights are as they were
   MaterialField materials;
   Eigen::VectorXd point_mass;       ///< #points, kg: density times v_k
   SymmetricMatrix stability;        ///< scalar error form, without gamma; empty if condensed

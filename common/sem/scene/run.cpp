@@ -232,7 +232,7 @@ class Run {
   }
 
   std::vector<StageError> all_errors() const {
-    auto errors = stage_errors(model_->discretization, accuracy_);
+    auto errors = stage_errors(model_->cost, accuracy_);
     errors.push_back({"analysis", report_.residual, "worst residual, by the forces"});
     if (scene_.analysis.kind != AnalysisKind::modes)
       errors.push_back({"folds", folded_share_, "share of the inside that is turned inside out"});

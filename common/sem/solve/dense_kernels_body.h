@@ -64,16 +64,32 @@ void weigh_rows(double* C, int ld_c, const double* const* factors, int n_factors
   }
 }
 
+// By products of rectangles, whose order of summation does not depend on where the matrix begins in memory as that
+// of Eigen's symmetric product does.
 void multiply_panel(const double* A, int ld, int n, int m, const double* x, const double* u, double* y, double* v) {
   using Vector = Eigen::Map<Eigen::VectorXd>;
   using ConstVector = Eigen::Map<const Eigen::VectorXd>;
-  const auto own = view(A, n, n, ld), below = view(A + n, m, n, ld);
-  const ConstVector at_own(x, n), at_below(u, m);
-  Vector sum(y, n);
-  sum.noalias() += own.selfadjointView<Eigen::Lower>() * at_own;
+  constexpr int at_once = 16;
+  for (int j = 0; j < n; j += at_once) {
+    const int w = n - j < at_once ? n - j : at_once, rest = n - j - w;
+    const double* corner = A + j + long(j) * ld;
+    for (int c = 0; c < w; ++c) {
+      double sum = corner[c + long(c) * ld] * x[j + c];
+      for (int i = c + 1; i < w; ++i) {
+        sum += corner[i + long(c) * ld] * x[j + i];
+        y[j + i] += corner[i + long(c) * ld] * x[j + c];
+      }
+      y[j + c] += sum;
+    }
+    if (rest == 0) continue;
+    const auto below = view(corner + w, rest, w, ld);
+    Vector(y + j + w, rest).noalias() += below * ConstVector(x + j, w);
+    Vector(y + j, w).noalias() += below.transpose() * ConstVector(x + j + w, rest);
+  }
   if (m == 0) return;
-  sum.noalias() += below.transpose() * at_below;
-  Vector(v, m).noalias() = below * at_own;
+  const auto below = view(A + n, m, n, ld);
+  Vector(y, n).noalias() += below.transpose() * ConstVector(u, m);
+  Vector(v, m).noalias() = below * ConstVector(x, n);
 }
 
 }  // namespace
