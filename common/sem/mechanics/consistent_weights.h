@@ -21,9 +21,9 @@ struct ConsistentWeights {
 /// sum_k v'_k (log(v'_k / v_k) - 1) + l sum_q ..., l = volume / area: with the multipliers' field lambda in the
 /// span of the functions
 ///   v'_k = v_k exp(-div lambda(X_k)),   s'_q = s_q exp((lambda(Y_q) . N_q + mu) / l),
-/// mu such that the weights of each part keep their sum; by Newton's method. Not reached where boundary and rule contradict each other: the affine field itself
-/// violates the theorem by more than 1e-3 (gaps, overlaps), or weights would have to change by more than a factor e (too few
-/// points). `d`: condensed.
+/// mu such that the weights of each part keep their sum; by Newton's method. Not reached where boundary and rule
+/// contradict each other: the affine field itself violates the theorem by more than 1e-3 (gaps, overlaps), or weights
+/// would have to change by more than a factor e (too few points). `d`: condensed.
 template <int Dim>
 ConsistentWeights consistent_weights(const Discretization<Dim>& d);
 

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "sem/base/text_lines.h"
+
 namespace sem {
 namespace {
 
@@ -30,9 +32,7 @@ class InfoText {
  private:
   template <class... Values>
   void add(const char* format, const Values&... values) {
-    char line[400];
-    std::snprintf(line, sizeof line, format, values...);
-    text_ += line;
+    append_formatted(text_, format, values...);
   }
 
   double number(const char* key) const { return info_[key].get<double>(); }
@@ -49,7 +49,7 @@ class InfoText {
   void body() {
     const Json& rule = info_["accuracy"]["quadrature"]["rule"];
     add("body:      %d parts in %d solid%s, boundary %.6g %s, %s %.6g %s, mass %.6g kg\n", count("parts"), count("solids"),
-        count("solids") == 1 ? "" : "s",        number(dim_ == 2 ? "boundary_length_m" : "boundary_area_m2"), dim_ == 2 ? "m" : "m^2", volume_,
+        count("solids") == 1 ? "" : "s", number(dim_ == 2 ? "boundary_length_m" : "boundary_area_m2"), dim_ == 2 ? "m" : "m^2", volume_,
         rule[volume_].get<double>(), dim_ == 2 ? "m^2" : "m^3", number("mass_kg"));
     int k = 0;
     if (info_.contains("shells"))

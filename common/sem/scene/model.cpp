@@ -77,6 +77,7 @@ class Builder {
     auto& d = model_->discretization;
     const ConsistentWeights weights = consistent_weights(d);
     model_->divergence_defect = weights.reached ? weights.defect : std::numeric_limits<double>::infinity();
+    if (!weights.reached) return;
     d.boundary_factor = weights.boundary.cwiseQuotient(boundary_rule(d).samples.weight);
     d.quadrature.weight = weights.interior;
   }

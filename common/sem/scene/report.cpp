@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sem/base/text_lines.h"
 #include "sem/base/version.h"
 #include "sem/scene/accuracy_goal.h"
 #include "sem/scene/summary.h"
@@ -40,9 +41,7 @@ class Report {
  private:
   template <class... Values>
   void add(const char* format, const Values&... values) {
-    char line[300];
-    std::snprintf(line, sizeof line, format, values...);
-    text_ += line;
+    append_formatted(text_, format, values...);
   }
 
   bool stopped() const { return run_.analysis.status != Status::converged; }
