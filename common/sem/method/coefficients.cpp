@@ -113,29 +113,31 @@ std::vector<int> independent_functions(const MatrixXd& G, int n_first, double to
 
 template <int Dim>
 FreeCoefficients<Dim> free_coefficients(const Points<Dim>& position, const VectorXd& volume,
-                                        const BlendingWeights<Dim>& weights, int degree,
+                                        const BlendingWeights<Dim>& weights, const std::vector<int>& degree,
                                         double tolerance) {
-  if (degree < 1 || degree > 4)
-    throw InputError("", "method.degree", std::to_string(degree), "1 to 4");
+  const auto [lowest, highest] = std::minmax_element(degree.begin(), degree.end());
+  if (*lowest < 1 || *highest > 6)
+    throw InputError("", "method.degree", std::to_string(*lowest < 1 ? *lowest : *highest), "1 to 4");
   FreeCoefficients<Dim> free;
-  free.projection.monomials = Monomials<Dim>(degree);
-  const int n_parts = weights.n_parts, n_functions = free.projection.monomials.size() + 1;
+  const auto& monomials = free.projection.monomials = Monomials<Dim>(*highest);
+  const int n_parts = weights.n_parts, n_functions = monomials.size() + 1;
   const Frames<Dim> frames = weight_frames(position, volume, weights);
   free.origins = own_origins(frames);
   const Vec<Dim> lower = position.rowwise().minCoeff(), upper = position.rowwise().maxCoeff();
   const Vec<Dim> middle = (lower + upper) / 2;
   const double size = (upper - lower).norm();
-  std::vector<int> column_of(n_parts * n_functions);
-  for (size_t f = 0; f < column_of.size(); ++f) column_of[f] = Dim + 1 + int(f);
+  std::vector<int> column_of(n_parts * n_functions, -1);
+  int n_candidates = Dim + 1;
+  for (int i = 0; i < n_parts; ++i)
+    for (int f = 0; f <= monomials.first(degree[i] + 1); ++f) column_of[i * n_functions + f] = n_candidates++;
   const auto set_columns = [&] {
     free.projection.parts.clear();
     for (int i = 0; i < n_parts; ++i)
       free.projection.parts.push_back(fit_of_columns<Dim>(
-          free.projection.monomials, frames.center.col(i), frames.length[i], middle, size,
+          monomials, frames.center.col(i), frames.length[i], middle, size,
           {column_of.begin() + i * n_functions, column_of.begin() + (i + 1) * n_functions}));
   };
   set_columns();
-  const int n_candidates = Dim + 1 + int(column_of.size());
   MatrixXd G = gradient_gram_matrix(
       blended_map(position, weights, free.origins, free.projection, n_candidates, true),
       volume, size);
@@ -143,8 +145,10 @@ FreeCoefficients<Dim> free_coefficients(const Points<Dim>& position, const Vecto
   if (int(chosen.size()) <= Dim)  // not even 1 and X: only where something is not a number
     throw InputError("", "method.weights", "weights or gradients of weights that are not finite", "finite ones: a shape whose patches are less degenerate there");
   std::sort(chosen.begin(), chosen.end());
-  std::fill(column_of.begin(), column_of.end(), -1);
-  for (int c = Dim + 1; c < int(chosen.size()); ++c) column_of[chosen[c] - (Dim + 1)] = c;
+  std::vector<int> number(n_candidates, -1);
+  for (int c = 0; c < int(chosen.size()); ++c) number[chosen[c]] = c;
+  for (int& column : column_of)
+    if (column >= 0) column = number[column];
   set_columns();
 
   const int n = int(chosen.size());
@@ -209,8 +213,8 @@ MatrixXd boundary_output(const Samples<Dim>& samples, const Map<Dim>& on_boundar
 }
 
 #define SEM_INSTANTIATE(Dim)                                                                       \
-  template FreeCoefficients<Dim> free_coefficients<Dim>(const Points<Dim>&, const VectorXd&,       \
-                                                        const BlendingWeights<Dim>&, int, double); \
+  template FreeCoefficients<Dim> free_coefficients<Dim>(const Points<Dim>&, const VectorXd&, const BlendingWeights<Dim>&, \
+                                                        const std::vector<int>&, double); \
   template BlendedField<Dim> blended_field<Dim>(const Points<Dim>&, const VectorXd&,               \
                                                 const BlendingWeights<Dim>&, int, double);         \
   template MatrixXd boundary_output<Dim>(const Samples<Dim>&, const Map<Dim>&, int);

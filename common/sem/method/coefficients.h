@@ -27,10 +27,11 @@ struct FreeCoefficients {
 ///   G = sum_k v_k (grad phi_k . grad phi_k^T + phi_k phi_k^T / L^2),  L: size of the points' box,
 /// scaled to a unit diagonal: a function is left out when the square of its distance to the span of
 /// those chosen falls below `tolerance`. The affine field comes first.
-/// `weights` need their gradients. Throws InputError (field `method.degree`) outside 1..4.
+/// `weights` need their gradients. `degree`: of every part of the weights; throws InputError (field
+/// `method.degree`) outside 1..5.
 template <int Dim>
 FreeCoefficients<Dim> free_coefficients(const Points<Dim>& position, const Eigen::VectorXd& volume,
-                                        const BlendingWeights<Dim>& weights, int degree,
+                                        const BlendingWeights<Dim>& weights, const std::vector<int>& degree,
                                         double tolerance = 1e-10);
 
 /// Blended polynomials w_i q of a degree from 0 to `degree` of the map's, as a basis of a scalar field on the

@@ -89,6 +89,19 @@ void project_controls(Discretization<Dim>& d) {
     for (int& column : group.columns) column = unknown_of[column];
 }
 
+// At a re-entrant joint the solution turns through more than half a circle, in every ring around it: levels do not
+// help against that, two degrees more do (an L of two limbs, n = 3: 2.1 % off, with them 0.7 %, for 14 % more unknowns).
+// Held joints gain nothing from it.
+int degree_of(const JointPatch& patch, int n) { return patch.reentrant ? n + 2 : n; }
+
+// Of all parts' and patches' polynomials.
+template <int Dim>
+std::vector<int> degrees(const Discretization<Dim>& d) {
+  std::vector<int> degree(size_t(d.boundary.n_parts()), d.options.projection.degree);
+  for (const auto& patch : d.patches) degree.push_back(degree_of(patch, d.options.projection.degree));
+  return degree;
+}
+
 // The condensed one: the coefficients are the unknowns.
 template <int Dim>
 void choose_coefficients(Discretization<Dim>& d) {
@@ -99,7 +112,7 @@ void choose_coefficients(Discretization<Dim>& d) {
   const double tolerance = std::max(rounding, resolved ? 0.1 * d.options.interior_rule.weight_tolerance : 0.0);
   auto free = timed(d.cost, "coefficients", [&] {
     return free_coefficients(d.quadrature.position, d.quadrature.weight, d.weights,
-                             d.options.projection.degree, tolerance);
+                             degrees(d), tolerance);
   });
   d.origins = std::move(free.origins);
   d.projection = std::move(free.projection);
@@ -110,13 +123,14 @@ void choose_coefficients(Discretization<Dim>& d) {
 template <int Dim>
 void drop_unresolved_patches(Discretization<Dim>& d) {
   if (d.patches.empty()) return;
-  const int needed = 2 * (Monomials<Dim>(d.options.projection.degree).size() + 1);
   const auto theta = measure_theta(d.boundary, d.loops, d.patches, d.quadrature.position, d.options).theta;
   std::vector<int> n_points(theta.n_parts, 0);
   for (const int part : theta.part) ++n_points[part];
   std::vector<JointPatch> resolved;
-  for (size_t p = 0; p < d.patches.size(); ++p)
-    if (n_points[d.boundary.n_parts() + p] >= needed) resolved.push_back(d.patches[p]);
+  for (size_t p = 0; p < d.patches.size(); ++p) {
+    const int n_functions = Monomials<Dim>(degree_of(d.patches[p], d.options.projection.degree)).size() + 1;
+    if (n_points[d.boundary.n_parts() + p] >= 2 * n_functions) resolved.push_back(d.patches[p]);
+  }
   d.patches = std::move(resolved);
 }
 

@@ -147,7 +147,8 @@ std::vector<JointPatch> find_joint_patches(const Boundary<Dim>& boundary, const 
       const bool changes = !condition.empty() && condition[a] != condition[b];
       if (!joint || !(joint->reentrant || changes)) continue;
       double radius = std::min(cutoff, 2 * joint->extent);
-      for (int level = 0; level < n_levels; ++level, radius *= radius_ratio)
+      const int n = joint->reentrant ? n_levels + n_levels / 2 : n_levels;
+      for (int level = 0; level < n; ++level, radius *= radius_ratio)
         patches.push_back({a, b, radius, level, joint->reentrant});
     }
   return patches;

@@ -24,8 +24,8 @@ struct JointPatch {
       reentrant;  ///< the solid takes up more than half of the surroundings (by 3 degrees at least)
 };
 
-/// Where patches stand: `n_levels` at every joint of two parts of a solid that is re-entrant or
-/// where conditions change. `condition`: #parts, parts with the same number are held and loaded
+/// Where patches stand: `n_levels` at every joint of two parts of a solid where conditions change, half as many more
+/// at every one that is re-entrant (singular like r^0.54 at a right angle, r^0.7 where a face ends that is held). `condition`: #parts, parts with the same number are held and loaded
 /// alike; empty: all are. The largest reaches as far as the cutoff or twice the larger part's
 /// extent from the joint, whichever is less; each further one half as far. Parts meet where an edge
 /// of the one (2D: an end) lies on the border of the other; trimmed parts have none here. Patches
