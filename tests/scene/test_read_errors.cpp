@@ -68,7 +68,7 @@ TEST_CASE("refused: unknown keys, with the nearest valid one") {
   check_error(
       triangle(R"("method": {"weights": {"cutof": 1}})"),
       "test.json: method.weights: found the unknown key 'cutof'; allowed: 'cutoff' (did you "
-      "mean that?), or one of cutoff, distance, patch_levels, side_ramp, sparsity");
+      "mean that?), or one of cutoff, distance, layers, patch_levels, side_ramp, sparsity");
   check_error(triangle(R"("gravty": [0, 1])"),
               "test.json: found the unknown key 'gravty'; allowed: 'gravity'", "did you mean");
   check_error(triangle("", R"("color": "red")"),

@@ -28,18 +28,18 @@ struct Theta {
 };
 
 template <int Dim>
-Theta<Dim> measure_theta(const Boundary<Dim>& boundary, const Loops<Dim>& loops,
-                         const std::vector<JointPatch>& patches, const Points<Dim>& position,
-                         const MethodOptions& options) {
+Theta<Dim> measure_theta(const Discretization<Dim>& d, const Points<Dim>& position) {
+  const MethodOptions& options = d.options;
   const double longest =
       options.weights.sparsity ? std::numeric_limits<double>::infinity() : options.weights.cutoff;
-  auto distances = measure_distances(boundary, loops, position, options.weights.variant, longest,
+  auto distances = measure_distances(d.boundary, d.loops, position, options.weights.variant, longest,
                                      options.n_threads);
   auto theta = distance_weights(distances, options.weights);
   if (options.formulation == Formulation::condensed)
-    distance_weight_gradients(boundary, position, distances, theta);
-  add_joint_patches(patches, boundary, distances, position, theta);
-  keep_out_of_stiffer(options.stiffness, boundary, theta);
+    distance_weight_gradients(d.boundary, position, distances, theta);
+  add_joint_patches(d.patches, d.boundary, distances, position, theta);
+  add_part_layers(d.layers, d.boundary, distances, position, theta);
+  keep_out_of_stiffer(options.stiffness, d.boundary, theta);
   return {std::move(distances), std::move(theta)};
 }
 
@@ -94,11 +94,12 @@ void project_controls(Discretization<Dim>& d) {
 // Held joints gain nothing from it.
 int degree_of(const JointPatch& patch, int n) { return patch.reentrant ? n + 2 : n; }
 
-// Of all parts' and patches' polynomials.
+// Of the polynomials of all parts, patches and layers.
 template <int Dim>
 std::vector<int> degrees(const Discretization<Dim>& d) {
   std::vector<int> degree(size_t(d.boundary.n_parts()), d.options.projection.degree);
   for (const auto& patch : d.patches) degree.push_back(degree_of(patch, d.options.projection.degree));
+  degree.insert(degree.end(), d.layers.size(), d.options.projection.degree);
   return degree;
 }
 
@@ -119,19 +120,24 @@ void choose_coefficients(Discretization<Dim>& d) {
   d.unknowns = std::move(free.unknowns);
 }
 
-// Patches with fewer points than twice the coefficients of a polynomial are left out.
+// Patches and layers with fewer points than twice the coefficients of a polynomial are left out.
 template <int Dim>
-void drop_unresolved_patches(Discretization<Dim>& d) {
-  if (d.patches.empty()) return;
-  const auto theta = measure_theta(d.boundary, d.loops, d.patches, d.quadrature.position, d.options).theta;
+void drop_unresolved(Discretization<Dim>& d) {
+  if (d.patches.empty() && d.layers.empty()) return;
+  const auto theta = measure_theta(d, d.quadrature.position).theta;
   std::vector<int> n_points(theta.n_parts, 0);
   for (const int part : theta.part) ++n_points[part];
-  std::vector<JointPatch> resolved;
-  for (size_t p = 0; p < d.patches.size(); ++p) {
-    const int n_functions = Monomials<Dim>(degree_of(d.patches[p], d.options.projection.degree)).size() + 1;
-    if (n_points[d.boundary.n_parts() + p] >= 2 * n_functions) resolved.push_back(d.patches[p]);
-  }
-  d.patches = std::move(resolved);
+  const auto degree = degrees(d);
+  size_t part = size_t(d.boundary.n_parts());
+  const auto drop_from = [&](auto& list) {
+    std::erase_if(list, [&](const auto&) {
+      const bool drop = n_points[part] < 2 * (Monomials<Dim>(degree[part]).size() + 1);
+      ++part;
+      return drop;
+    });
+  };
+  drop_from(d.patches);
+  drop_from(d.layers);
 }
 
 // 1 + the squares of the Legendre polynomials P_n of each coordinate on the box, of mean 1: what products of
@@ -152,41 +158,41 @@ double polynomial_variation(const Box<Dim>& box, int n, const Vec<Dim>& X) {
 template <int Dim>
 std::vector<Box<Dim>> support_boxes(const Discretization<Dim>& d) {
   std::vector<Box<Dim>> boxes;
-  const double reach = d.options.weights.cutoff;
-  const auto add = [&](const Vec<Dim>& lower, const Vec<Dim>& upper) {
+  const auto add = [&](const Box<Dim>& part, double reach) {
     Box<Dim> box;
-    box.lower = lower.cwiseMax(d.boundary.box.lower);
-    box.upper = upper.cwiseMin(d.boundary.box.upper);
+    box.lower = (part.lower.array() - reach).matrix().cwiseMax(d.boundary.box.lower);
+    box.upper = (part.upper.array() + reach).matrix().cwiseMin(d.boundary.box.upper);
     boxes.push_back(box);
   };
-  for (const auto& part : d.boundary.parts)
-    add(part.box.lower.array() - reach, part.box.upper.array() + reach);
+  for (const auto& part : d.boundary.parts) add(part.box, d.options.weights.cutoff);
   for (const auto& patch : d.patches) boxes.push_back(support_of(patch, d.boundary));
+  for (const auto& layer : d.layers) add(d.boundary.parts[layer.part].box, layer.reach);
   return boxes;
 }
 
 // What the interior rule has to resolve of every weight: w^2 and rho^2 |grad w|^2, rho the distance
-// to the part, at most a quarter of the cutoff: at the joint of two parts grad w grows like 1 /
+// to the part, at most a quarter of its reach: at the joint of two parts grad w grows like 1 /
 // distance, where their polynomials agree.
 template <int Dim>
 Indicators weight_indicators(const Discretization<Dim>& d, const Points<Dim>& position) {
-  const auto [distances, theta] =
-      measure_theta(d.boundary, d.loops, d.patches, position, d.options);
+  const auto [distances, theta] = measure_theta(d, position);
   const auto weights = blending_weights(theta, d.boundary, position);
   const auto supports = support_boxes(d);
   Indicators values;
   values.n = 2 * theta.n_parts;
   values.begin.push_back(0);
   for (int k = 0; k < weights.n_points(); ++k) {
-    int pair = distances.begin[k];
+    const auto first_pair = distances.part.begin() + distances.begin[k], last_pair = distances.part.begin() + distances.begin[k + 1];
     for (int e = weights.begin[k]; e < weights.begin[k + 1]; ++e) {
-      const int i = weights.part[e];
-      while (pair < distances.begin[k + 1] && distances.part[pair] != i) ++pair;
-      const bool of_part = pair < distances.begin[k + 1];
-      const double rho = of_part ? std::min(distances.closest[pair], theta.cutoff / 4)
-                         : i < d.boundary.n_parts() ? 0
-                                                    : d.patches[i - d.boundary.n_parts()].radius;
-      if (!of_part) pair = distances.begin[k];
+      const int i = weights.part[e], patch = i - d.boundary.n_parts(), layer = patch - int(d.patches.size());
+      double rho = 0;
+      if (patch >= 0 && layer < 0) {
+        rho = d.patches[patch].radius;
+      } else {
+        const auto pair = std::find(first_pair, last_pair, layer >= 0 ? d.layers[layer].part : i);
+        const double reach = layer >= 0 ? d.layers[layer].reach : theta.cutoff;
+        if (pair != last_pair) rho = std::min(distances.closest[pair - distances.part.begin()], reach / 4);
+      }
       const double variation = polynomial_variation<Dim>(supports[i], d.options.projection.degree, position.col(k));
       values.index.push_back(2 * i);
       values.value.push_back(variation * weights.w[e] * weights.w[e]);
@@ -250,14 +256,16 @@ Discretization<Dim> discretize(const std::vector<std::vector<Nurbs<Dim - 1, Dim>
                      "one of the other rules: moments do not tell where weights have kinks");
   if (options.formulation == Formulation::condensed)
     d.patches = find_joint_patches(d.boundary, d.loops, options.condition, options.weights.cutoff, options.patch_levels);
+  if (options.formulation == Formulation::condensed && options.weights.variant == DistanceWeight::sided)
+    d.layers = find_part_layers(d.boundary, options.weights.cutoff, options.layers);
   d.quadrature = timed(d.cost, "interior quadrature", [&] {
     return resolved ? resolve_weights(d)
                     : interior_rule(d.boundary, d.loops, d.rays, options.interval,
                                     options.interior_rule, d.interior_report);
   });
-  drop_unresolved_patches(d);
+  drop_unresolved(d);
   d.theta = timed(d.cost, "distance weights", [&] {
-    return measure_theta(d.boundary, d.loops, d.patches, d.quadrature.position, options).theta;
+    return measure_theta(d, d.quadrature.position).theta;
   });
   // From here on the cutoff is a length, also where a sparsity was asked for.
   d.options.weights.cutoff = d.theta.cutoff;
@@ -321,7 +329,7 @@ int append_columns(Discretization<Dim>& d, int n) {
 
 template <int Dim>
 Map<Dim> map_at(const Discretization<Dim>& d, const Points<Dim>& position, bool with_gradient) {
-  const auto theta = measure_theta(d.boundary, d.loops, d.patches, position, d.options).theta;
+  const auto theta = measure_theta(d, position).theta;
   return blended_map(position, blending_weights(theta, d.boundary, position), d.origins,
                      d.projection, d.unknowns.size(), with_gradient, d.options.n_threads);
 }
@@ -329,7 +337,7 @@ Map<Dim> map_at(const Discretization<Dim>& d, const Points<Dim>& position, bool 
 template <int Dim>
 Eigen::MatrixXd field_at(const Discretization<Dim>& d, const BlendedField<Dim>& field,
                          const Points<Dim>& position) {
-  const auto theta = measure_theta(d.boundary, d.loops, d.patches, position, d.options).theta;
+  const auto theta = measure_theta(d, position).theta;
   return dense_value(blended_map(position, blending_weights(theta, d.boundary, position), field.origins,
                                  field.projection, field.n_functions, false, d.options.n_threads));
 }

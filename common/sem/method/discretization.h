@@ -11,6 +11,7 @@
 #include "sem/method/joint_patches.h"
 #include "sem/method/map.h"
 #include "sem/method/origins.h"
+#include "sem/method/part_layers.h"
 #include "sem/method/projection.h"
 #include "sem/method/samples.h"
 #include "sem/method/unknowns.h"
@@ -33,6 +34,9 @@ inline constexpr int usual_patch_levels = 4;
 template <>
 inline constexpr int usual_patch_levels<3> = 0;
 
+/// Layers that scenes of the condensed formulation have unless they say otherwise.
+inline constexpr int usual_layers = 4;
+
 /// The options of every stage.
 struct MethodOptions {
   Formulation formulation = Formulation::projected;
@@ -44,6 +48,7 @@ struct MethodOptions {
   std::vector<double> stiffness = {};  ///< #parts: of their materials (material_weights.h); empty: all alike
   double volume_stiffness = 1;  ///< condensed: largest lambda / mu of the materials (choose_coefficients)
   int patch_levels = 0;     ///< of patches at joints, condensed only (joint_patches.h)
+  int layers = 0;           ///< at most, of parts that are small beside the cutoff; condensed, sided only (part_layers.h)
   std::vector<int> condition = {};  ///< #parts: as find_joint_patches has it; empty: all are held and loaded alike
   OwnPressure own_pressure = OwnPressure::automatic;
   OriginChoice origins = OriginChoice::shared_parts;
@@ -72,6 +77,7 @@ struct Discretization {
   Quadrature<Dim> quadrature;
   InteriorReport<Dim> interior_report;
   std::vector<JointPatch> patches;  ///< condensed: further parts of theta and weights
+  std::vector<PartLayer> layers;    ///< and these after them
   DistanceWeights<Dim> theta;
   BlendingWeights<Dim> weights;
   Origins<Dim> origins;

@@ -81,20 +81,6 @@ Mat<Dim> direction_derivative(const Vec<Dim>& n, double d, const Mat<Dim>& foot)
   return across * slide / d;
 }
 
-// theta = f(d / alpha) h(side).
-template <int Dim>
-Vec<Dim> sided_gradient(const PreparedNurbs<Dim - 1, Dim>& part, const Distances<Dim>& distances, int pair,
-                        const Vec<Dim>& X, const DistanceWeights<Dim>& theta) {
-  const double d = distances.closest[pair];
-  const Slope profile = distance_profile(d / theta.cutoff);
-  if (d == 0)
-    return -profile.derivative / theta.cutoff * distances.outward[distances.part[pair]] *
-           unit_normal(part.nurbs, distances.foot_u[pair]);
-  const Vec<Dim> n = (X - distances.foot[pair]) / d;
-  const SideStep<Dim> step = side_at(part, distances, pair, X, theta.side_ramp);
-  return profile.derivative * step.value / theta.cutoff * n + profile.value * step.gradient;
-}
-
 template <int Dim>
 Vec<Dim> theta_gradient(const Boundary<Dim>& boundary, const Distances<Dim>& distances, int pair,
                         const Vec<Dim>& X, double cutoff, bool draft) {
@@ -139,6 +125,20 @@ SideStep<Dim> side_at(const PreparedNurbs<Dim - 1, Dim>& part, const Distances<D
   return {step.value, -step.derivative * distances.outward[distances.part[pair]] * (from_n + from_N)};
 }
 
+// theta = f(d / reach) h(side).
+template <int Dim>
+Vec<Dim> sided_gradient(const PreparedNurbs<Dim - 1, Dim>& part, const Distances<Dim>& distances, int pair,
+                        const Vec<Dim>& X, double reach, double ramp) {
+  const double d = distances.closest[pair];
+  const Slope profile = distance_profile(d / reach);
+  if (d == 0)
+    return -profile.derivative / reach * distances.outward[distances.part[pair]] *
+           unit_normal(part.nurbs, distances.foot_u[pair]);
+  const Vec<Dim> n = (X - distances.foot[pair]) / d;
+  const SideStep<Dim> step = side_at(part, distances, pair, X, ramp);
+  return profile.derivative * step.value / reach * n + profile.value * step.gradient;
+}
+
 template <int Dim>
 void distance_weight_gradients(const Boundary<Dim>& boundary, const Points<Dim>& position,
                                const Distances<Dim>& distances, DistanceWeights<Dim>& theta) {
@@ -150,7 +150,7 @@ void distance_weight_gradients(const Boundary<Dim>& boundary, const Points<Dim>&
       const Vec<Dim> X = position.col(k);
       const int i = theta.part[e];
       if (distances.variant == DistanceWeight::sided)
-        theta.gradient.push_back(sided_gradient<Dim>(boundary.parts[i], distances, pair, X, theta));
+        theta.gradient.push_back(sided_gradient<Dim>(boundary.parts[i], distances, pair, X, theta.cutoff, theta.side_ramp));
       else
         theta.gradient.push_back(theta_gradient<Dim>(boundary, distances, pair, X, theta.cutoff,
                                                      distances.variant == DistanceWeight::draft));
@@ -161,6 +161,8 @@ void distance_weight_gradients(const Boundary<Dim>& boundary, const Points<Dim>&
 #define SEM_INSTANTIATE(Dim)                                                              \
   template void distance_weight_gradients<Dim>(const Boundary<Dim>&, const Points<Dim>&,  \
                                                const Distances<Dim>&, DistanceWeights<Dim>&); \
+  template Vec<Dim> sided_gradient<Dim>(const PreparedNurbs<Dim - 1, Dim>&, const Distances<Dim>&, int, \
+                                        const Vec<Dim>&, double, double);                    \
   template SideStep<Dim> side_at<Dim>(const PreparedNurbs<Dim - 1, Dim>&, const Distances<Dim>&, int, const Vec<Dim>&, double);
 SEM_INSTANTIATE(2)
 SEM_INSTANTIATE(3)

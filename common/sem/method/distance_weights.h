@@ -77,6 +77,17 @@ struct DistanceWeights {
   std::vector<Vec<Dim>> gradient;  ///< #entries: grad theta, 1/m; empty: not asked for (distance_weight_gradients)
   std::vector<int> piece;        ///< #entries: smooth piece: the part whose hit decides, -1: the cutoff does
   int n_parts = 0;
+
+  /// Another's row k at the end of the last row.
+  void append_row(const DistanceWeights& other, int k) {
+    const auto append = [&](auto& to, const auto& from) {
+      to.insert(to.end(), from.begin() + other.begin[size_t(k)], from.begin() + other.begin[size_t(k) + 1]);
+    };
+    append(part, other.part);
+    append(theta, other.theta);
+    append(piece, other.piece);
+    if (!other.gradient.empty()) append(gradient, other.gradient);
+  }
 };
 
 /// theta from distances. With options.sparsity the cutoff is the distance at
@@ -96,6 +107,11 @@ DistanceWeights<Dim> distance_weights(const Distances<Dim>& distances, const Wei
 template <int Dim>
 void distance_weight_gradients(const Boundary<Dim>& boundary, const Points<Dim>& position,
                                const Distances<Dim>& distances, DistanceWeights<Dim>& theta);
+
+/// grad theta of a pair of `distances` (sided), which belongs to `part` and X, for a reach in place of alpha, 1/m.
+template <int Dim>
+Vec<Dim> sided_gradient(const PreparedNurbs<Dim - 1, Dim>& part, const Distances<Dim>& distances, int pair,
+                        const Vec<Dim>& X, double reach, double ramp);
 
 /// h(side) of a sided weight and its gradient, 1/m.
 template <int Dim>

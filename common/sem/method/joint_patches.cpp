@@ -178,12 +178,7 @@ void add_joint_patches(const std::vector<JointPatch>& patches, const Boundary<Di
   };
   for (int k = 0; k < position.cols(); ++k) {
     const Vec<Dim> X = position.col(k);
-    for (int e = theta.begin[k]; e < theta.begin[k + 1]; ++e) {
-      all.part.push_back(theta.part[e]);
-      all.theta.push_back(theta.theta[e]);
-      all.piece.push_back(theta.piece[e]);
-      if (with_gradient) all.gradient.push_back(theta.gradient[e]);
-    }
+    all.append_row(theta, k);
     const int begin = distances.begin[k], end = distances.begin[k + 1];
     for (int at_a = begin; at_a < end; ++at_a) {
       const int a = distances.part[at_a];

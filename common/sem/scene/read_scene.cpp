@@ -125,6 +125,7 @@ void describe_method(Fields& fields, MethodOptions& m) {
   if (fields.reading() && m.formulation == Formulation::condensed) {
     m.weights.variant = DistanceWeight::sided;
     m.patch_levels = usual_patch_levels<Dim>;
+    m.layers = usual_layers;
     m.interior_rule.rule = InteriorRule::resolved;
   }
   fields.integer("degree", m.projection.degree, 1, 4, "n, degree of the deformation polynomials");
@@ -161,6 +162,7 @@ void describe_method(Fields& fields, MethodOptions& m) {
     f.choice("distance", m.weights.variant, {"published", "draft", "distance_only", "sided"}, "formula of the distance weight theta; default with condensed: sided");
     f.number("side_ramp", m.weights.side_ramp, {0, 1, true, false}, "", "s of the sided weight: it ends where the cosine to the inner normal is -s");
     f.integer("patch_levels", m.patch_levels, 0, 8, "patches at each joint that is re-entrant or where pins or boundary loads change, each half the one before (condensed)");
+    f.integer("layers", m.layers, 0, 8, "at most so many further weights of each part whose extent is below a quarter of the cutoff, each reaching half as far as the one before (condensed, sided)");
     if (f.optional("sparsity", m.weights.sparsity.has_value())) {
       if (f.reading() && f.optional("cutoff", false)) f.reject("cutoff", "both cutoff and sparsity", "one of them");
       if (!m.weights.sparsity) m.weights.sparsity = 0.3;
