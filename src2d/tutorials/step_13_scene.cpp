@@ -238,9 +238,10 @@ int main(int argc, char** argv) {
       },
       [&](Picture& picture) {
         std::vector<std::pair<std::string, double>> bars;
-        for (const auto& [setting, refinement, factor, change, seconds, failure] : estimate.variations)
-          bars.push_back(
-              {setting, change.empty() ? 0 : *std::max_element(change.begin(), change.end())});
+        for (const auto& variation : estimate.variations) {
+          const auto& change = variation.change;
+          bars.push_back({variation.setting, change.empty() ? 0 : *std::max_element(change.begin(), change.end())});
+        }
         draw_bars(picture, "largest change of a probe, m", bars);
       });
   return lesson.run(argc, argv);

@@ -178,6 +178,7 @@ Indicators weight_indicators(const Discretization<Dim>& d, const Points<Dim>& po
   const auto [distances, theta] = measure_theta(d, position);
   const auto weights = blending_weights(theta, d.boundary, position);
   const auto supports = support_boxes(d);
+  const auto degree = degrees(d);
   Indicators values;
   values.n = 2 * theta.n_parts;
   values.begin.push_back(0);
@@ -193,7 +194,7 @@ Indicators weight_indicators(const Discretization<Dim>& d, const Points<Dim>& po
         const double reach = layer >= 0 ? d.layers[layer].reach : theta.cutoff;
         if (pair != last_pair) rho = std::min(distances.closest[pair - distances.part.begin()], reach / 4);
       }
-      const double variation = polynomial_variation<Dim>(supports[i], d.options.projection.degree, position.col(k));
+      const double variation = polynomial_variation<Dim>(supports[i], degree[i], position.col(k));
       values.index.push_back(2 * i);
       values.value.push_back(variation * weights.w[e] * weights.w[e]);
       if (weights.gradient.empty()) continue;
@@ -213,7 +214,7 @@ Quadrature<Dim> resolve_weights(Discretization<Dim>& d) {
   options.tolerance = d.options.interior_rule.weight_tolerance;
   // Where weights are smooth a few points would do for them, but not for all the functions they carry.
   if (d.options.formulation == Formulation::condensed)
-    options.min_points = 2 * d.boundary.n_parts() * (Monomials<Dim>(d.options.projection.degree).size() + 1);
+    for (const int degree : degrees(d)) options.min_points += 2 * (Monomials<Dim>(degree).size() + 1);
   auto rule = resolved_rule<Dim>(
       d.boundary, d.loops, [&](const Points<Dim>& X) { return weight_indicators(d, X); }, options,
       d.options.n_threads);

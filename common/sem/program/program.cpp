@@ -160,7 +160,11 @@ class Commands {
     const SceneText source = find_scene();
     const Scene<Dim> scene = load(source);
     if (!line_.json) std::cout << choices(source);
-    std::cout << model_info(scene, *build_model(scene, source.file), line_.json, source.file);
+    Progress progress;
+    const std::string text = model_info(scene, *build_model(scene, source.file), line_.json, source.file, [&](const std::string& what) {
+      progress(0, "estimating the error: " + what);
+    });
+    std::cout << text;
     if (!line_.json && !program_.painter)
       std::cout << "frames: none, " << program_.name << " does not draw\n";
     return 0;

@@ -88,7 +88,8 @@ std::vector<Change> changes_for(const Scene<Dim>& scene) {
   else if (!condensed)
     changes.push_back({lower_degree, {}});
   if (scene.analysis.kind == AnalysisKind::dynamics)
-    changes.push_back({"half the time step", Refinement::time_step});
+    changes.push_back({"half the time step", Refinement::time_step,
+                       scene.analysis.integrator == Integrator::implicit_midpoint ? 4. / 3 : 2.});
   return changes;
 }
 
@@ -153,15 +154,16 @@ bool refine(Scene<Dim>& scene, Refinement refinement) {
 }
 
 template <int Dim>
-ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file) {
+ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file, const Announce& announce) {
   if (scene.analysis.kind != AnalysisKind::modes && scene.probes.empty()) return {};
+  if (announce) announce("as given");
   const auto model = build_model(scene, file);
-  return estimate_error(scene, file, *model, values_of(scene, model, 1));
+  return estimate_error(scene, file, *model, values_of(scene, model, 1), announce);
 }
 
 template <int Dim>
 ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file, const Model<Dim>& model,
-                             const Rows& original) {
+                             const Rows& original, const Announce& announce) {
   ErrorEstimate result;
   const bool modes = scene.analysis.kind == AnalysisKind::modes;
   if ((!modes && scene.probes.empty()) || original.empty()) return result;
@@ -179,9 +181,12 @@ ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file, c
     variation.setting = change.setting;
     variation.refinement = change.refinement;
     variation.factor = change.factor;
+    if (announce) announce(change.setting);
     const Stopwatch watch;
     try {
-      const Rows rows = values_of(varied, build_model(varied, file), change.refinement == Refinement::time_step ? 2 : 1);
+      const auto changed = build_model(varied, file);
+      variation.megabytes = changed->megabytes();
+      const Rows rows = values_of(varied, changed, change.refinement == Refinement::time_step ? 2 : 1);
       variation.change.assign(result.value.size(), 0);
       for (size_t t = 0; t < std::min(rows.size(), original.size()); ++t)
         for (size_t c = 0; c < std::min(rows[t].size(), variation.change.size()); ++c)
@@ -201,9 +206,9 @@ template Scene<2> linear_response<2>(Scene<2>);
 template Scene<3> linear_response<3>(Scene<3>);
 template bool refine<2>(Scene<2>&, Refinement);
 template bool refine<3>(Scene<3>&, Refinement);
-template ErrorEstimate estimate_error<2>(const Scene<2>&, const std::string&);
-template ErrorEstimate estimate_error<2>(const Scene<2>&, const std::string&, const Model<2>&, const Rows&);
-template ErrorEstimate estimate_error<3>(const Scene<3>&, const std::string&);
-template ErrorEstimate estimate_error<3>(const Scene<3>&, const std::string&, const Model<3>&, const Rows&);
+template ErrorEstimate estimate_error<2>(const Scene<2>&, const std::string&, const Announce&);
+template ErrorEstimate estimate_error<2>(const Scene<2>&, const std::string&, const Model<2>&, const Rows&, const Announce&);
+template ErrorEstimate estimate_error<3>(const Scene<3>&, const std::string&, const Announce&);
+template ErrorEstimate estimate_error<3>(const Scene<3>&, const std::string&, const Model<3>&, const Rows&, const Announce&);
 
 }  // namespace sem

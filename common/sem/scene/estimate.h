@@ -1,6 +1,7 @@
 #pragma once
 // How wrong the probes may be: the run repeated with one setting changed at a time.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,13 +13,16 @@ namespace sem {
 /// What makes the answer more exact.
 enum class Refinement { quadrature, parts, degree, time_step };
 
+/// Told of each piece of work before it begins; may be empty.
+using Announce = std::function<void(const std::string& what)>;
+
 /// What changing one setting did to the probes (to the frequencies, in a modal analysis).
 struct Variation {
   std::string setting;          ///< "twice the rays and points", ...
   std::optional<Refinement> refinement = {};  ///< if it is one
   double factor = 1;            ///< change times this counts as error
   std::vector<double> change;   ///< per value: the largest difference over the times of the run
-  double seconds = 0;
+  double seconds = 0, megabytes = 0;  ///< of the run; of its model (Model::megabytes)
   std::string failure;          ///< why there is no result; then `change` is empty
 };
 
@@ -39,14 +43,15 @@ struct ErrorEstimate {
 /// Nothing to judge (no probes, and no modes): no columns, and nothing is run. Otherwise
 /// repeats the analysis with: twice the rays and points; every part halved;
 /// twice gamma (condensed: the clamps' penalty); 1.5 times the cutoff; one polynomial degree more (projected:
-/// one less at degree 4); half the time step (dynamics).
+/// one less at degree 4); half the time step (dynamics; twice that change for a method of first
+/// order, 4/3 of it for one of second).
 template <int Dim>
-ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file);
+ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file, const Announce& announce = {});
 /// The same where the scene's own analysis has been run: on `model`, with `original` the values of the columns at
 /// every step after the start (statics, modes: one row).
 template <int Dim>
 ErrorEstimate estimate_error(const Scene<Dim>& scene, const std::string& file, const Model<Dim>& model,
-                             const std::vector<std::vector<double>>& original);
+                             const std::vector<std::vector<double>>& original, const Announce& announce = {});
 
 /// The scene whose error is estimated before a run: its linear response. All materials are linear, and a dynamic
 /// analysis becomes the equilibrium under its loads.

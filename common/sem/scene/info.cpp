@@ -81,30 +81,17 @@ void add_tangent(const Scene<Dim>& scene, const Model<Dim>& model, Json& json) {
 
 // Of the probes or frequencies of the linear response; text where there is none.
 template <int Dim>
-Json predicted_error(const Scene<Dim>& scene, const std::string& file) {
+Json predicted_error(const Scene<Dim>& scene, const std::string& file, const Announce& announce) {
   if (!scene.output.error_estimate) return "not asked for (output.error_estimate)";
   const Scene<Dim> linear = linear_response(scene);
   try {
-    const ErrorEstimate estimate = estimate_error(linear, file);
+    const ErrorEstimate estimate = estimate_error(linear, file, announce);
     if (estimate.columns.empty()) return "nothing to judge: no probes";
     const double error = relative_error(linear, estimate);
     return std::isfinite(error) ? Json(error) : Json("unknown: a probe stays at zero");
   } catch (const std::exception& error) {
     return std::string("unknown: ") + error.what();
   }
-}
-
-template <int Dim>
-double megabytes(const Model<Dim>& model) {
-  const auto& d = model.discretization;
-  double numbers = 0;
-  for (const auto& block : d.interior.blocks)
-    numbers += double(block.points.size()) * double(block.columns.size()) * (Dim + 1);
-  for (const auto& block : d.on_boundary.blocks) numbers += double(block.value.size());
-  for (const auto& fit : d.projection.parts) numbers += double(fit.coefficients.size());
-  const double entries = double(model.system.mass.plan()->n_entries);
-  numbers += (2 + 3 * Dim * Dim) * entries;  // mass, stability; Hessian, system matrix, factor
-  return 8e-6 * numbers;
 }
 
 template <int Dim>
@@ -129,7 +116,7 @@ Json part_list(const Scene<Dim>& scene, const Discretization<Dim>& d, const std:
 }
 
 template <int Dim>
-Json info_json(const Scene<Dim>& scene, const Model<Dim>& model, const std::string& file) {
+Json info_json(const Scene<Dim>& scene, const Model<Dim>& model, const std::string& file, const Announce& announce) {
   const auto& d = model.discretization;
   Json json;
   json["name"] = scene.name;
@@ -157,18 +144,20 @@ Json info_json(const Scene<Dim>& scene, const Model<Dim>& model, const std::stri
   json["rays"] = d.rays.rays.size();
   json["rays_unpaired"] = d.rays.n_unpaired;
   json["quadrature_points"] = d.quadrature.size();
+  json["joint_patches"] = d.patches.size();
+  json["layers"] = d.layers.size();
   json["origins"] = d.origins.members.size();
   json["origin_ties"] = d.origins.ties.size();
   json["cutoff_m"] = d.theta.cutoff;
-  json["weights_nonzero_share"] = double(d.weights.w.size()) / (double(d.weights.n_points()) * d.boundary.n_parts());
+  json["weights_nonzero_share"] = double(d.weights.w.size()) / (double(d.weights.n_points()) * d.weights.n_parts);
   json["map_fill"] = d.interior.fill();
   json["mass_kg"] = model.total_mass();
   json["stability_stiffness_Pa_per_m"] = model.stability_stiffness;
   const auto accuracy = measure_accuracy(model);
   json["accuracy"] = to_json(accuracy);
   add_tangent(scene, model, json);
-  json["predicted"]["relative_error_of_linear_response"] = predicted_error(scene, file);
-  json["memory_MB"] = megabytes(model);
+  json["predicted"]["relative_error_of_linear_response"] = predicted_error(scene, file, announce);
+  json["memory_MB"] = model.megabytes();
   json["stages"] = stages_json(model.cost, stage_errors(model.cost, accuracy));
   scene_to_json(scene, json["settings"]);
   return json;
@@ -177,12 +166,13 @@ Json info_json(const Scene<Dim>& scene, const Model<Dim>& model, const std::stri
 }  // namespace
 
 template <int Dim>
-std::string model_info(const Scene<Dim>& scene, const Model<Dim>& model, bool json, const std::string& file) {
-  const Json info = info_json(scene, model, file);
+std::string model_info(const Scene<Dim>& scene, const Model<Dim>& model, bool json, const std::string& file,
+                       const Announce& announce) {
+  const Json info = info_json(scene, model, file, announce);
   return json ? json_text(info) : info_text(info, Dim);
 }
 
-template std::string model_info<2>(const Scene<2>&, const Model<2>&, bool, const std::string&);
-template std::string model_info<3>(const Scene<3>&, const Model<3>&, bool, const std::string&);
+template std::string model_info<2>(const Scene<2>&, const Model<2>&, bool, const std::string&, const Announce&);
+template std::string model_info<3>(const Scene<3>&, const Model<3>&, bool, const std::string&, const Announce&);
 
 }  // namespace sem

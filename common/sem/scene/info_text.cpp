@@ -90,7 +90,10 @@ class InfoText {
           quadrature["relative_error"]["moments_to_degree_6"].get<double>());
     else
       add("%s not checked (parts overlap, or leave gaps)\n", volume_);
-    add("weights:   cutoff %.4g m, %.3g %% non-zero; %.2g %% of the %s out of reach\n", number("cutoff_m"),
+    add("weights:   cutoff %.4g m", number("cutoff_m"));
+    if (count("joint_patches") > 0) add(", %d joint patches", count("joint_patches"));
+    if (count("layers") > 0) add(", %d layers", count("layers"));
+    add(", %.3g %% non-zero; %.2g %% of the %s out of reach\n",
         100 * number("weights_nonzero_share"), 100 * accuracy["uncovered_share"].get<double>(), volume_);
   }
 

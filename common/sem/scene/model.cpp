@@ -339,6 +339,19 @@ class Builder {
 }  // namespace
 
 template <int Dim>
+double Model<Dim>::megabytes() const {
+  const auto& d = discretization;
+  double numbers = 0;
+  for (const auto& block : d.interior.blocks)
+    numbers += double(block.points.size()) * double(block.columns.size()) * (Dim + 1);
+  for (const auto& block : d.on_boundary.blocks) numbers += double(block.value.size());
+  for (const auto& fit : d.projection.parts) numbers += double(fit.coefficients.size());
+  const double entries = double(system.mass.plan()->n_entries);
+  numbers += (2 + 3 * Dim * Dim) * entries;  // mass, stability; Hessian, system matrix, factor
+  return 8e-6 * numbers;
+}
+
+template <int Dim>
 std::unique_ptr<Model<Dim>> build_model(const Scene<Dim>& scene, const std::string& file) {
   try {
     return Builder<Dim>(scene, file).build();
@@ -349,6 +362,8 @@ std::unique_ptr<Model<Dim>> build_model(const Scene<Dim>& scene, const std::stri
   }
 }
 
+template double Model<2>::megabytes() const;
+template double Model<3>::megabytes() const;
 template std::unique_ptr<Model<2>> build_model<2>(const Scene<2>&, const std::string&);
 template std::unique_ptr<Model<3>> build_model<3>(const Scene<3>&, const std::string&);
 

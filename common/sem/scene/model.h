@@ -35,6 +35,8 @@ struct Model {
 
   double total_mass() const { return point_mass.sum(); }
   int n_unknowns() const { return int(system.free.size()); }
+  /// Of the maps, the projection and the matrices, 1e6 bytes; an estimate from the numbers of entries.
+  double megabytes() const;
   /// What march() calls before a step; empty if the load is constant.
   std::function<void(double)> set_load() {
     if (load.periodic.empty()) return {};

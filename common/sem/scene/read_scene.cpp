@@ -420,6 +420,7 @@ void describe_scene(Fields& fields, Scene<Dim>& scene, const ShapeLibrary<Dim>& 
     f.number("angular_velocity", scene.angular_velocity, any_number, "rad/s", "about the centroid (3D: about z)");
   });
   fields.items<Probe<Dim>>("probes", scene.probes, "values of interest", describe_probe<Dim>);
+  fields.number("accuracy_seconds", scene.accuracy_seconds, positive, "s", "refining to `accuracy` does not begin what would end later");
   fields.number("accuracy", scene.accuracy, {0, 1, false, true}, "", "> 0: parts, degree, quadrature and time step are refined until the probes' (frequencies') estimated relative error is below (condensed)");
   fields.object("analysis", "what to compute", [&](Fields& f) { describe_analysis(f, scene.analysis); });
   fields.object("output", "what to write", [&](Fields& f) { describe_output(f, scene.output); });

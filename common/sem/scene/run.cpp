@@ -5,6 +5,7 @@
 
 #include "sem/base/error.h"
 #include "sem/base/stopwatch.h"
+#include "sem/base/text_lines.h"
 #include "sem/base/version.h"
 #include "sem/scene/accuracy.h"
 #include "sem/scene/accuracy_goal.h"
@@ -78,10 +79,9 @@ class Run {
     if (refined_) {
       estimate_ = refined_->estimate;
       for (const auto& round : refined_->rounds) estimate_seconds_ += round.seconds;
-      char goal[100];
-      std::snprintf(goal, sizeof goal, "; accuracy %.3g %s, %.2g expected", scene_.accuracy,
-                    refined_->reached ? "met" : "NOT met", refined_->expected());
-      result_.message += goal;
+      append_formatted(result_.message, "; accuracy %.3g %s, %.2g expected", scene_.accuracy,
+                       refined_->reached ? "met" : "NOT met", refined_->expected());
+      if (!refined_->reached && !refined_->limit.empty()) result_.message += " (limit: " + refined_->limit + ")";
     }
     if (scene_.analysis.kind != AnalysisKind::modes) {
       const Stopwatch watch;
@@ -90,9 +90,10 @@ class Run {
     }
     write_results();  // whatever happens to the estimate
     if (!refined_ && scene_.output.error_estimate && result_.ok) {
-      progress(0, "estimating the error");
       const Stopwatch watch;
-      estimate_ = estimate_error(scene_, options_.file, *model_, values());
+      estimate_ = estimate_error(scene_, options_.file, *model_, values(), [&](const std::string& what) {
+        progress(0, "estimating the error: " + what);
+      });
       estimate_seconds_ = watch.seconds();
       write_results();
     }
@@ -315,8 +316,9 @@ class Run {
 template <int Dim>
 RunResult run_scene(const Scene<Dim>& scene, const RunOptions& options, const FrameCallback<Dim>& on_frame) {
   if (scene.accuracy == 0) return Run<Dim>(scene, options, on_frame, nullptr).run();
-  if (options.progress) options.progress(0, "refining");
-  const RefinedScene<Dim> refined = meet_accuracy(scene, options.file);
+  const RefinedScene<Dim> refined = meet_accuracy(scene, options.file, 3000, [&](const std::string& what) {
+    if (options.progress) options.progress(0, "refining, " + what);
+  });
   return Run<Dim>(refined.scene, options, on_frame, &refined).run();
 }
 

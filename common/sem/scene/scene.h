@@ -137,6 +137,7 @@ struct Scene {
   Vec<Dim> velocity = Vec<Dim>::Zero();  ///< m/s, initial
   double angular_velocity = 0;           ///< rad/s, initial, about the centroid (2D; about z in 3D)
   std::vector<Probe<Dim>> probes;
+  double accuracy_seconds = 60;  ///< what refining to `accuracy` may take
   double accuracy = 0;  ///< relative error of the probes (frequencies) that the scene is refined to (accuracy_goal.h); 0: as given
   Analysis analysis;
   OutputOptions output;
