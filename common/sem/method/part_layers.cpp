@@ -10,7 +10,7 @@ namespace sem {
 namespace {
 
 constexpr double least_extents = 2;  // what a part sees beside it anyway
-constexpr double least_share = 1. / 64, largest_share = 1. / 2;  // of the cutoff
+constexpr double shortest_share = 1. / 64, longest_share = 1. / 2;  // of the cutoff
 
 }  // namespace
 
@@ -21,7 +21,7 @@ std::vector<PartLayer> find_part_layers(const Boundary<Dim>& boundary, double cu
   const auto measures = part_measures(boundary);
   for (int i = 0; i < boundary.n_parts(); ++i) {
     const double extent = std::pow(measures[size_t(i)], 1.0 / (Dim - 1));
-    const double least = std::max(least_extents * extent, least_share * cutoff), range = largest_share * cutoff / least;
+    const double least = std::max(least_extents * extent, shortest_share * cutoff), range = longest_share * cutoff / least;
     if (range < 1) continue;
     const int n = std::min(n_layers, 1 + int(std::log2(range) + 1e-9));
     const double ratio = n > 1 && n == n_layers ? std::pow(range, 1. / (n - 1)) : 2;
