@@ -99,9 +99,10 @@ TEST_CASE("control points that trims leave without support follow, and no system
                    cut = solve(hung_box(formulation, true, 3, n_spans));
       if (n_spans > 1) CHECK(cut.n_followers > 2 * 20);
       CHECK(cut.affine_error < 1e-9);
-      // Condensed: the control points are an output, only the points on the boundary differ.
+      // Condensed: the control points are an output, only the points on the boundary differ, and the interior rule's
+      // cells, which follow the parts' edges.
       // Projected: richer parts follow the map better.
-      CHECK((cut.tip - plain.tip).norm() < (condensed ? 1e-5 : 0.3) * plain.tip.norm());
+      CHECK((cut.tip - plain.tip).norm() < (condensed ? 1e-3 : 0.3) * plain.tip.norm());
     }
 }
 
