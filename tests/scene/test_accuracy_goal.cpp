@@ -110,3 +110,38 @@ TEST_CASE("a goal needs the formulation that converges, and a probe") {
   scene.probes.clear();
   CHECK_THROWS_AS(meet_accuracy(scene, ""), InputError);
 }
+
+TEST_CASE("a goal does not begin what would end after accuracy_seconds, and says so") {
+  Scene<2> scene = coarse_beam();
+  scene.accuracy = 1e-6;
+  scene.accuracy_seconds = 1e-3;
+  const auto refined = meet_accuracy(scene, "");
+  CHECK(!refined.reached);
+  CHECK(refined.rounds.size() == 1);
+  CHECK(refined.limit == "accuracy_seconds");
+}
+
+TEST_CASE("frequencies of rigid motions, which are rounding, have no error of their own size") {
+  Scene<2> scene = coarse_beam();
+  scene.pins.clear();
+  scene.analysis.kind = AnalysisKind::modes;
+  scene.analysis.n_modes = 5;
+  const ErrorEstimate estimate = estimate_error(scene, "");
+  REQUIRE(estimate.value.size() == 5);
+  CHECK(std::abs(estimate.value[2]) < 1e-3 * estimate.value[3]);
+  CHECK(relative_error(scene, estimate) > 1e-6);
+  CHECK(relative_error(scene, estimate) < 0.3);
+}
+
+// Free fall in n steps of the linearly implicit Euler method is g dt^2 n (n + 1) / 2, off by g t dt / 2.
+TEST_CASE("the error of a method of first order in time is twice what half the step changes") {
+  Scene<2> scene = coarse_beam();
+  scene.pins.clear();
+  scene.analysis.kind = AnalysisKind::dynamics;
+  scene.analysis.time_step = 0.01;
+  scene.analysis.duration = 0.1;
+  const ErrorEstimate estimate = estimate_error(scene, "");
+  CHECK(estimate.variations.back().setting == "half the time step");
+  CHECK(2 * estimate.variations.back().change[1] == doctest::Approx(10 * 0.1 * 0.01 / 2).epsilon(1e-6));
+  CHECK(estimate.estimate[1] == doctest::Approx(10 * 0.1 * 0.01 / 2).epsilon(1e-3));
+}
